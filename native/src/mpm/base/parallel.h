@@ -1,0 +1,19 @@
+// The only door to the thread pool.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+#include "mpm/base/context.h"
+
+namespace mpm {
+
+// Calls body(begin, end) on disjoint ranges that cover [0, n), in parallel on context.threads() threads (0: all),
+// `grain` items or fewer at a time. Advances the context's progress by the items done and starts no further range
+// once it is cancelled. The body writes only to its own items, so the result does not depend on the number of threads.
+void for_each_range(std::size_t n,
+                    std::size_t grain,
+                    Context& context,
+                    const std::function<void(std::size_t, std::size_t)>& body);
+
+}  // namespace mpm

@@ -1,0 +1,47 @@
+// The surface set Σ: every face to machine and every face to keep clear of, ready to be searched.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mpm/surface/box_tree.h"
+#include "mpm/surface/bspline_surface.h"
+#include "mpm/surface/trim_region.h"
+
+namespace mpm {
+
+struct Face {
+  std::string name;
+  BSplineSurface surface;
+  TrimRegion trim;
+  bool check = false;  // a check face is kept clear of but not machined
+};
+
+// A Bézier patch of the model that carries some of its face.
+struct PatchRef {
+  const BezierPatch* patch;
+  std::uint32_t face;
+  TrimRegion::Cover cover;  // inside or crossing: patches outside the trim are left out
+};
+
+class SurfaceModel {
+ public:
+  // Requires at least one face that is not a check face.
+  explicit SurfaceModel(std::vector<Face> faces);
+  SurfaceModel(const SurfaceModel&) = delete;
+  SurfaceModel& operator=(const SurfaceModel&) = delete;
+  SurfaceModel(SurfaceModel&&) = default;
+
+  const std::vector<Face>& faces() const { return faces_; }
+  const std::vector<PatchRef>& patches() const { return patches_; }
+  const BoxTree& tree() const { return tree_; }  // over patches()
+  const Box3& bounds() const { return tree_.bounds(); }
+  Box3 machined_bounds() const;  // of the faces that are not check faces (control points)
+
+ private:
+  std::vector<Face> faces_;
+  std::vector<PatchRef> patches_;
+  BoxTree tree_;
+};
+
+}  // namespace mpm

@@ -1,0 +1,36 @@
+// The part of a face's parameter plane that belongs to the face.
+#pragma once
+
+#include <vector>
+
+#include "mpm/base/types.h"
+
+namespace mpm {
+
+// Closed polygons in (u, v) under the even-odd rule; no polygon: the whole plane (an untrimmed face). The polygons
+// approximate the exact trimming curves to the chord error with which they were sampled.
+class TrimRegion {
+ public:
+  TrimRegion() = default;
+  explicit TrimRegion(std::vector<std::vector<Vec2>> loops);
+
+  bool everything() const { return loops_.empty(); }
+  const std::vector<std::vector<Vec2>>& loops() const { return loops_; }
+  bool contains(double u, double v) const;
+
+  enum class Cover { outside, inside, crossing };
+  // How the rectangle lies: wholly outside, wholly inside, or crossed by (or too near to tell from) a boundary.
+  Cover cover(const ParamBox& box) const;
+
+ private:
+  struct Edge {
+    Vec2 a, b;
+  };
+  std::size_t row(double v) const;
+
+  std::vector<std::vector<Vec2>> loops_;
+  double v_lo_ = 0, v_hi_ = 0;
+  std::vector<std::vector<Edge>> rows_;  // the edges that meet each of equal strips in v
+};
+
+}  // namespace mpm

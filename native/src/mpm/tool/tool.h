@@ -1,0 +1,54 @@
+// The cutting tool: a toroidal (bull-nose) cutter with its flutes, shank and holder.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mpm/base/types.h"
+
+namespace mpm {
+
+// A truncated cone about the tool axis, stacked on what is below it (mm).
+struct ToolSegment {
+  double bottom_radius, top_radius, length;
+};
+
+// Ro = major_radius, Ri = minor_radius, both in mm. Ro = 0: ball end; Ri = 0: flat end. Tool frame: origin at the torus
+// centre (centre of the major circle), z along the axis from tip to spindle; the tip lies at z = -Ri.
+struct Tool {
+  double major_radius = 0;
+  double minor_radius = 0;
+  double recess = 0;        // depth of the hollow inside the ring above the tip plane, 0 (flat bottom) to Ri
+  double flute_length = 0;  // from the tip
+  std::vector<ToolSegment> segments;  // shank, then holder, from the top of the flutes upwards
+
+  double radius() const { return major_radius + minor_radius; }
+  double length() const;  // tip to the top of the last segment
+  double reach() const;   // largest distance of a point of the tool from its axis
+};
+
+// Throws std::invalid_argument naming the radius or length that is wrong.
+void check_tool(const Tool& tool);
+
+// Distance (mm) of a point at radius r >= 0 and height z of the tool frame from the tool's body: positive outside, where
+// it is exact; negative inside, where its size is at most the true depth.
+double signed_distance(const Tool& tool, double r, double z);
+
+// Where the tool stands.
+struct ToolPose {
+  Vec3 torus_center;
+  Vec3 axis;  // unit, tip to spindle
+
+  Vec3 tip(const Tool& tool) const { return torus_center - tool.minor_radius * axis; }
+  static ToolPose from_tip(const Tool& tool, const Vec3& tip, const Vec3& axis) {
+    return {tip + tool.minor_radius * axis, axis};
+  }
+};
+
+// Signed distance of a point in space from the tool at `pose`.
+double signed_distance(const Tool& tool, const ToolPose& pose, const Vec3& point);
+
+// A box that contains the tool at `pose`, grown by `margin` (mm).
+Box3 tool_bounds(const Tool& tool, const ToolPose& pose, double margin);
+
+}  // namespace mpm
