@@ -59,5 +59,6 @@ void bind_base(py::module_& m);
 void bind_surface(py::module_& m);
 void bind_tool(py::module_& m);
 void bind_footprint(py::module_& m);
+void bind_positioning(py::module_& m);
 
 }  // namespace mpm::bindings

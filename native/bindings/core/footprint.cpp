@@ -25,7 +25,8 @@ void bind_footprint(py::module_& m) {
       py::arg("forward_step_mm"),
       py::arg("margin_mm") = 0.0,
       py::arg("zigzag") = false,
-      "XY-parallel passes over the rectangle lo..hi of the set-up's plane: points (N, 2) and pass index (N,).");
+      "XY-parallel passes over the rectangle lo..hi of the set-up's plane: points (N, 2) and pass index "
+      "(N,).");
 }
 
 }  // namespace mpm::bindings

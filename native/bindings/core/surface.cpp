@@ -10,21 +10,24 @@ BSplineSurface make_surface(int degree_u,
                             const DoubleArray& knots_v,
                             const DoubleArray& poles,
                             const std::optional<DoubleArray>& weights) {
-  require(poles.ndim() == 3 && poles.shape(2) == 3, "poles must have shape (nu, nv, 3), got " + shape_of(poles));
+  require(poles.ndim() == 3 && poles.shape(2) == 3,
+          "poles must have shape (nu, nv, 3), got " + shape_of(poles));
   std::vector<double> w;
   if (weights) {
-    require(weights->ndim() == 2 && weights->shape(0) == poles.shape(0) && weights->shape(1) == poles.shape(1),
-            "weights must have shape (nu, nv) like the poles, got " + shape_of(*weights));
+    require(
+        weights->ndim() == 2 && weights->shape(0) == poles.shape(0) && weights->shape(1) == poles.shape(1),
+        "weights must have shape (nu, nv) like the poles, got " + shape_of(*weights));
     w.assign(weights->data(), weights->data() + weights->size());
   }
   std::vector<double> ku = to_doubles(knots_u, "knots_u"), kv = to_doubles(knots_v, "knots_v");
   require(py::ssize_t(ku.size()) == poles.shape(0) + degree_u + 1,
-          "knots_u must have nu + degree_u + 1 = " + std::to_string(poles.shape(0) + degree_u + 1) + " entries, got " +
-              std::to_string(ku.size()));
+          "knots_u must have nu + degree_u + 1 = " + std::to_string(poles.shape(0) + degree_u + 1) +
+              " entries, got " + std::to_string(ku.size()));
   require(py::ssize_t(kv.size()) == poles.shape(1) + degree_v + 1,
-          "knots_v must have nv + degree_v + 1 = " + std::to_string(poles.shape(1) + degree_v + 1) + " entries, got " +
-              std::to_string(kv.size()));
-  return BSplineSurface(degree_u, degree_v, std::move(ku), std::move(kv), to_vectors<Vec3>(poles, "poles"), w);
+          "knots_v must have nv + degree_v + 1 = " + std::to_string(poles.shape(1) + degree_v + 1) +
+              " entries, got " + std::to_string(kv.size()));
+  return BSplineSurface(
+      degree_u, degree_v, std::move(ku), std::move(kv), to_vectors<Vec3>(poles, "poles"), w);
 }
 
 py::array_t<double> evaluate(const BSplineSurface& surface, const DoubleArray& u, const DoubleArray& v) {
@@ -73,7 +76,8 @@ void bind_surface(py::module_& m) {
            py::arg("u"),
            py::arg("v"),
            "Point and derivatives S, Su, Sv, Suu, Suv, Svv at u (N,), v (N,): array (N, 6, 3).");
-  py::class_<Face>(m, "Face", "A surface with its trimming loops; a check face is kept clear of, not machined.")
+  py::class_<Face>(
+      m, "Face", "A surface with its trimming loops; a check face is kept clear of, not machined.")
       .def(py::init(&make_face),
            py::arg("name"),
            py::arg("surface"),
@@ -85,15 +89,17 @@ void bind_surface(py::module_& m) {
   py::class_<SurfaceModel>(m, "SurfaceModel", "The surface set: all faces to machine and to keep clear of.")
       .def(py::init([](const std::vector<Face>& faces) { return SurfaceModel(faces); }), py::arg("faces"))
       .def_property_readonly("patches", [](const SurfaceModel& s) { return s.patches().size(); })
-      .def("bounds",
-           [](const SurfaceModel& s) { return py::make_tuple(s.bounds().lo, s.bounds().hi); },
-           "Box (lo, hi) of all faces, mm.")
-      .def("machined_bounds",
-           [](const SurfaceModel& s) {
-             const Box3 box = s.machined_bounds();
-             return py::make_tuple(box.lo, box.hi);
-           },
-           "Box (lo, hi) of the faces to machine, mm.");
+      .def(
+          "bounds",
+          [](const SurfaceModel& s) { return py::make_tuple(s.bounds().lo, s.bounds().hi); },
+          "Box (lo, hi) of all faces, mm.")
+      .def(
+          "machined_bounds",
+          [](const SurfaceModel& s) {
+            const Box3 box = s.machined_bounds();
+            return py::make_tuple(box.lo, box.hi);
+          },
+          "Box (lo, hi) of the faces to machine, mm.");
 }
 
 }  // namespace mpm::bindings

@@ -1,5 +1,6 @@
-#include "common.h"
 #include "mpm/tool/tool.h"
+
+#include "common.h"
 
 namespace mpm::bindings {
 
@@ -20,7 +21,8 @@ void bind_tool(py::module_& m) {
            py::arg("recess_mm"),
            py::arg("flute_length_mm"),
            py::arg("segments") = std::vector<std::array<double, 3>>{},
-           "segments: (bottom radius, top radius, length) of shank and holder, from the top of the flutes upwards.")
+           "segments: (bottom radius, top radius, length) of shank and holder, from the top of the flutes "
+           "upwards.")
       .def_readonly("major_radius", &Tool::major_radius)
       .def_readonly("minor_radius", &Tool::minor_radius)
       .def_readonly("recess", &Tool::recess)
@@ -28,18 +30,19 @@ void bind_tool(py::module_& m) {
       .def_property_readonly("radius", &Tool::radius)
       .def_property_readonly("length", &Tool::length)
       .def_property_readonly("reach", &Tool::reach)
-      .def("signed_distance",
-           [](const Tool& tool, const Vec3& tip, const Vec3& axis, const DoubleArray& points) {
-             const ToolPose pose = ToolPose::from_tip(tool, tip, axis);
-             std::vector<double> result;
-             for (const Vec3& p : to_vectors<Vec3>(points, "points"))
-               result.push_back(mpm::signed_distance(tool, pose, p));
-             return from_scalars(result);
-           },
-           py::arg("tip"),
-           py::arg("axis"),
-           py::arg("points"),
-           "Signed distance (mm) of points (N, 3) from the tool standing at tip with axis.");
+      .def(
+          "signed_distance",
+          [](const Tool& tool, const Vec3& tip, const Vec3& axis, const DoubleArray& points) {
+            const ToolPose pose = ToolPose::from_tip(tool, tip, axis);
+            std::vector<double> result;
+            for (const Vec3& p : to_vectors<Vec3>(points, "points"))
+              result.push_back(mpm::signed_distance(tool, pose, p));
+            return from_scalars(result);
+          },
+          py::arg("tip"),
+          py::arg("axis"),
+          py::arg("points"),
+          "Signed distance (mm) of points (N, 3) from the tool standing at tip with axis.");
 }
 
 }  // namespace mpm::bindings

@@ -6,8 +6,9 @@
 
 namespace mpm {
 
-// The worker counts `done` up to `total`; any thread may read both and may call cancel(). A cancelled call returns
-// soon (each item is short) with what it has; items it did not reach keep their "not computed" status.
+// The worker counts `done` up to `total`; any thread may read both and may call cancel(). A cancelled call
+// returns soon (each item is short) with what it has; items it did not reach keep their "not computed"
+// status.
 class Context {
  public:
   explicit Context(int threads = 0) : threads_(threads) {}

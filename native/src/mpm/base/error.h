@@ -1,5 +1,5 @@
-// The three kinds of trouble (docs/architecture.md): a caller's mistake is std::invalid_argument, an outcome of the
-// mathematics is a status in the result, a bug of ours is std::logic_error.
+// The three kinds of trouble (docs/architecture.md): a caller's mistake is std::invalid_argument, an outcome
+// of the mathematics is a status in the result, a bug of ours is std::logic_error.
 #pragma once
 
 #include <stdexcept>

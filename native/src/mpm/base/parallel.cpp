@@ -17,7 +17,8 @@ void for_each_range(std::size_t n,
     context.advance(range.size());
   };
   const int threads = context.threads() > 0 ? context.threads() : tbb::task_arena::automatic;
-  tbb::task_arena(threads).execute([&] { tbb::parallel_for(Range(0, n, grain), run, tbb::simple_partitioner()); });
+  tbb::task_arena(threads).execute(
+      [&] { tbb::parallel_for(Range(0, n, grain), run, tbb::simple_partitioner()); });
 }
 
 }  // namespace mpm

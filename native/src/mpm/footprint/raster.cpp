@@ -34,7 +34,8 @@ Footprint raster(const Vec2& lo, const Vec2& hi, const RasterOptions& options) {
   check_step(options.forward_step, "forward_step_mm");
   require(std::isfinite(options.direction), "direction_deg must be a finite angle");
   require(std::isfinite(options.margin), "margin_mm must be a finite length");
-  require(lo.allFinite() && hi.allFinite() && lo.x() <= hi.x() && lo.y() <= hi.y(), "footprint: empty region");
+  require(lo.allFinite() && hi.allFinite() && lo.x() <= hi.x() && lo.y() <= hi.y(),
+          "footprint: empty region");
 
   const Vec2 feed(without_dust(std::cos(options.direction)), without_dust(std::sin(options.direction)));
   const Vec2 side(feed.y(), -feed.x());  // to the right of the feed
@@ -50,10 +51,11 @@ Footprint raster(const Vec2& lo, const Vec2& hi, const RasterOptions& options) {
   require(side_lo <= side_hi && feed_lo <= feed_hi, "margin_mm: takes off the whole region");
 
   const double width = side_hi - side_lo, depth = feed_hi - feed_lo;
-  const std::size_t passes = stations(width, options.side_step), per_pass = stations(depth, options.forward_step);
+  const std::size_t passes = stations(width, options.side_step),
+                    per_pass = stations(depth, options.forward_step);
   require(double(passes) * double(per_pass) <= double(kMaxPositions),
-          "steps: give " + std::to_string(passes) + " passes of " + std::to_string(per_pass) + " points, more than " +
-              std::to_string(kMaxPositions) + " positions");
+          "steps: give " + std::to_string(passes) + " passes of " + std::to_string(per_pass) +
+              " points, more than " + std::to_string(kMaxPositions) + " positions");
   Footprint footprint;
   footprint.points.reserve(passes * per_pass);
   footprint.pass.reserve(passes * per_pass);

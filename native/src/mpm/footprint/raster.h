@@ -24,10 +24,10 @@ struct RasterOptions {
 
 inline constexpr std::size_t kMaxPositions = 10'000'000;
 
-// Passes over the rectangle [lo, hi] of the plane, which is turned with the feed direction: its first corner starts the
-// first pass; the last pass and the last point of a pass lie on the far border even when the step does not divide the
-// width (thesis section 5.1: passes at x = 0, 18 ... 144, 150). Throws std::invalid_argument for steps that are not
-// positive or give no or more than kMaxPositions points.
+// Passes over the rectangle [lo, hi] of the plane, which is turned with the feed direction: its first corner
+// starts the first pass; the last pass and the last point of a pass lie on the far border even when the step
+// does not divide the width (thesis section 5.1: passes at x = 0, 18 ... 144, 150). Throws
+// std::invalid_argument for steps that are not positive or give no or more than kMaxPositions points.
 Footprint raster(const Vec2& lo, const Vec2& hi, const RasterOptions& options);
 
 }  // namespace mpm

@@ -13,7 +13,8 @@ double local(double u, double u0, double u1) { return (u - u0) / (u1 - u0); }
 
 Vec3 cartesian(const Vec4& h) { return h.head<3>() / h.w(); }
 
-// Control points of the Bézier curve `c` (degree+1 points, `stride` apart) restricted to [a, b], by de Casteljau twice.
+// Control points of the Bézier curve `c` (degree+1 points, `stride` apart) restricted to [a, b], by de
+// Casteljau twice.
 void restrict_curve(Vec4* c, int degree, int stride, double a, double b) {
   for (int k = 1; k <= degree; ++k)  // keep [a, 1]
     for (int i = 0; i <= degree - k; ++i) c[i * stride] = (1 - a) * c[i * stride] + a * c[(i + 1) * stride];
@@ -26,7 +27,8 @@ void restrict_curve(Vec4* c, int degree, int stride, double a, double b) {
 
 BezierPatch::BezierPatch(int degree_u, int degree_v, const ParamBox& box, std::vector<Vec4> control)
     : degree_u_(degree_u), degree_v_(degree_v), box_(box), control_(std::move(control)) {
-  ensure(control_.size() == std::size_t(degree_u + 1) * std::size_t(degree_v + 1), "Bézier net has a wrong size");
+  ensure(control_.size() == std::size_t(degree_u + 1) * std::size_t(degree_v + 1),
+         "Bézier net has a wrong size");
   rational_ = std::any_of(control_.begin(), control_.end(), [](const Vec4& c) { return c.w() != 1.0; });
 }
 

@@ -16,8 +16,8 @@ struct SurfacePoint {
 
 class BezierPatch {
  public:
-  // `control`: (degree_u+1)*(degree_v+1) homogeneous points (w x, w y, w z, w), row-major in u; weights positive.
-  // `box`: the part of the face's parameter plane that the patch covers.
+  // `control`: (degree_u+1)*(degree_v+1) homogeneous points (w x, w y, w z, w), row-major in u; weights
+  // positive. `box`: the part of the face's parameter plane that the patch covers.
   BezierPatch(int degree_u, int degree_v, const ParamBox& box, std::vector<Vec4> control);
 
   int degree_u() const { return degree_u_; }

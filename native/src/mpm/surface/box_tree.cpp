@@ -20,7 +20,10 @@ BoxTree::BoxTree(const std::vector<Box3>& boxes) {
   bounds_ = nodes_[0].box;
 }
 
-void BoxTree::build(std::uint32_t node, const std::vector<Box3>& boxes, std::uint32_t begin, std::uint32_t end) {
+void BoxTree::build(std::uint32_t node,
+                    const std::vector<Box3>& boxes,
+                    std::uint32_t begin,
+                    std::uint32_t end) {
   Box3 box, centers;
   for (std::uint32_t i = begin; i < end; ++i) {
     box.extend(boxes[items_[i]]);
@@ -36,10 +39,11 @@ void BoxTree::build(std::uint32_t node, const std::vector<Box3>& boxes, std::uin
   (centers.hi - centers.lo).maxCoeff(&axis);
   const std::uint32_t middle = begin + (end - begin) / 2;
   // Ties are broken by index, so the tree does not depend on the library's nth_element.
-  std::nth_element(items_.begin() + begin, items_.begin() + middle, items_.begin() + end, [&](auto a, auto b) {
-    const double ca = boxes[a].center()[axis], cb = boxes[b].center()[axis];
-    return ca != cb ? ca < cb : a < b;
-  });
+  std::nth_element(
+      items_.begin() + begin, items_.begin() + middle, items_.begin() + end, [&](auto a, auto b) {
+        const double ca = boxes[a].center()[axis], cb = boxes[b].center()[axis];
+        return ca != cb ? ca < cb : a < b;
+      });
   const std::uint32_t child = std::uint32_t(nodes_.size());
   nodes_[node].first = child;
   nodes_.emplace_back();

@@ -15,8 +15,8 @@ class BoxTree {
 
   const Box3& bounds() const { return bounds_; }
 
-  // Calls visit(index) for every box that `accept` (a predicate on Box3, true for a box whenever it is true for a part of
-  // it) admits, in a fixed order.
+  // Calls visit(index) for every box that `accept` (a predicate on Box3, true for a box whenever it is true
+  // for a part of it) admits, in a fixed order.
   template <class Accept, class Visit>
   void visit(const Accept& accept, const Visit& visit_item) const {
     if (!nodes_.empty()) visit_node(0, accept, visit_item);

@@ -12,8 +12,10 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 
 void check_knots(const std::vector<double>& knots, int degree, std::size_t poles, const std::string& which) {
-  require(degree >= 1 && degree <= kMaxDegree, "degree_" + which + " must be 1 to 10, got " + std::to_string(degree));
-  require(poles >= std::size_t(degree) + 1, "poles: direction " + which + " needs at least degree + 1 of them");
+  require(degree >= 1 && degree <= kMaxDegree,
+          "degree_" + which + " must be 1 to 10, got " + std::to_string(degree));
+  require(poles >= std::size_t(degree) + 1,
+          "poles: direction " + which + " needs at least degree + 1 of them");
   require(knots.size() == poles + degree + 1,
           "knots_" + which + " must have poles + degree + 1 = " + std::to_string(poles + degree + 1) +
               " entries, got " + std::to_string(knots.size()));
@@ -24,11 +26,12 @@ void check_knots(const std::vector<double>& knots, int degree, std::size_t poles
   require(knots[degree] < knots[poles], "knots_" + which + ": the parameter range is empty");
   for (std::size_t i = degree + 1; i + degree < poles; ++i)
     require(knots[i] < knots[i + degree],
-            "knots_" + which + ": an interior knot may be repeated at most degree times (the surface would break)");
+            "knots_" + which +
+                ": an interior knot may be repeated at most degree times (the surface would break)");
 }
 
-// The (degree+1)^2 matrix that turns the poles of knot span [knots[span], knots[span+1]] into Bézier control points:
-// control point k is the blossom at degree-k times the span's start and k times its end.
+// The (degree+1)^2 matrix that turns the poles of knot span [knots[span], knots[span+1]] into Bézier control
+// points: control point k is the blossom at degree-k times the span's start and k times its end.
 Matrix bezier_extraction(const std::vector<double>& knots, int degree, int span) {
   const double a = knots[span], b = knots[span + 1];
   Matrix result(degree + 1, degree + 1);

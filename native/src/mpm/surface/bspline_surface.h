@@ -9,9 +9,10 @@ namespace mpm {
 
 class BSplineSurface {
  public:
-  // `knots_u`, `knots_v`: flat, non-decreasing, multiplicities written out, poles + degree + 1 of them; the ends need not
-  // be clamped; interior multiplicity at most the degree. `poles`: nu*nv points, row-major in u. `weights`: empty
-  // (polynomial) or nu*nv positive numbers. Throws std::invalid_argument naming what is wrong.
+  // `knots_u`, `knots_v`: flat, non-decreasing, multiplicities written out, poles + degree + 1 of them; the
+  // ends need not be clamped; interior multiplicity at most the degree. `poles`: nu*nv points, row-major in
+  // u. `weights`: empty (polynomial) or nu*nv positive numbers. Throws std::invalid_argument naming what is
+  // wrong.
   BSplineSurface(int degree_u,
                  int degree_v,
                  std::vector<double> knots_u,

@@ -7,8 +7,8 @@
 
 namespace mpm {
 
-// Closed polygons in (u, v) under the even-odd rule; no polygon: the whole plane (an untrimmed face). The polygons
-// approximate the exact trimming curves to the chord error with which they were sampled.
+// Closed polygons in (u, v) under the even-odd rule; no polygon: the whole plane (an untrimmed face). The
+// polygons approximate the exact trimming curves to the chord error with which they were sampled.
 class TrimRegion {
  public:
   TrimRegion() = default;
@@ -19,7 +19,8 @@ class TrimRegion {
   bool contains(double u, double v) const;
 
   enum class Cover { outside, inside, crossing };
-  // How the rectangle lies: wholly outside, wholly inside, or crossed by (or too near to tell from) a boundary.
+  // How the rectangle lies: wholly outside, wholly inside, or crossed by (or too near to tell from) a
+  // boundary.
   Cover cover(const ParamBox& box) const;
 
  private:

@@ -9,8 +9,8 @@
 namespace mpm {
 namespace {
 
-// Signed distance from the trapezoid r <= radius(z), z in [z0, z1], radius linear from r0 to r1: a truncated cone in
-// the half-plane through the axis.
+// Signed distance from the trapezoid r <= radius(z), z in [z0, z1], radius linear from r0 to r1: a truncated
+// cone in the half-plane through the axis.
 double cone_distance(double r, double z, double r0, double r1, double z0, double z1) {
   const double below = z0 - z, above = z - z1;
   const double length = z1 - z0, slant = std::hypot(length, r1 - r0);
@@ -26,8 +26,8 @@ double cone_distance(double r, double z, double r0, double r1, double z0, double
 
 void check_length(double value, const char* name, bool may_be_zero) {
   require(std::isfinite(value) && (value > 0 || (may_be_zero && value == 0)),
-          std::string(name) + " must be a " + (may_be_zero ? "non-negative" : "positive") + " number of mm, got " +
-              std::to_string(value));
+          std::string(name) + " must be a " + (may_be_zero ? "non-negative" : "positive") +
+              " number of mm, got " + std::to_string(value));
 }
 
 }  // namespace
@@ -54,8 +54,8 @@ void check_tool(const Tool& tool) {
               std::to_string(tool.recess));
   check_length(tool.flute_length, "flute_length_mm", false);
   require(tool.flute_length > tool.minor_radius,
-          "flute_length_mm must be more than minor_radius_mm (" + std::to_string(tool.minor_radius) + "), got " +
-              std::to_string(tool.flute_length));
+          "flute_length_mm must be more than minor_radius_mm (" + std::to_string(tool.minor_radius) +
+              "), got " + std::to_string(tool.flute_length));
   for (const ToolSegment& s : tool.segments) {
     check_length(s.bottom_radius, "segment bottom radius", false);
     check_length(s.top_radius, "segment top radius", false);

@@ -13,8 +13,9 @@ struct ToolSegment {
   double bottom_radius, top_radius, length;
 };
 
-// Ro = major_radius, Ri = minor_radius, both in mm. Ro = 0: ball end; Ri = 0: flat end. Tool frame: origin at the torus
-// centre (centre of the major circle), z along the axis from tip to spindle; the tip lies at z = -Ri.
+// Ro = major_radius, Ri = minor_radius, both in mm. Ro = 0: ball end; Ri = 0: flat end. Tool frame: origin at
+// the torus centre (centre of the major circle), z along the axis from tip to spindle; the tip lies at z =
+// -Ri.
 struct Tool {
   double major_radius = 0;
   double minor_radius = 0;
@@ -30,8 +31,8 @@ struct Tool {
 // Throws std::invalid_argument naming the radius or length that is wrong.
 void check_tool(const Tool& tool);
 
-// Distance (mm) of a point at radius r >= 0 and height z of the tool frame from the tool's body: positive outside, where
-// it is exact; negative inside, where its size is at most the true depth.
+// Distance (mm) of a point at radius r >= 0 and height z of the tool frame from the tool's body: positive
+// outside, where it is exact; negative inside, where its size is at most the true depth.
 double signed_distance(const Tool& tool, double r, double z);
 
 // Where the tool stands.

@@ -1,0 +1,154 @@
+#include <algorithm>
+#include <memory>
+
+#include "common.h"
+#include "mpm/base/context.h"
+#include "mpm/footprint/plan_locator.h"
+#include "mpm/gouge/clearance_sampler.h"
+#include "mpm/positioning/method.h"
+
+namespace mpm::bindings {
+namespace {
+
+py::dict to_dict(const Placements& placements, const Tool& tool) {
+  const auto& all = placements.positions;
+  const py::ssize_t n = py::ssize_t(all.size());
+  py::array_t<double> tip({n, py::ssize_t(3)}), axis({n, py::ssize_t(3)});
+  py::array_t<double> contacts({n, py::ssize_t(2), py::ssize_t(3)}),
+      normals({n, py::ssize_t(2), py::ssize_t(3)});
+  py::array_t<double> clearance({n, py::ssize_t(2)}), tilt_deg(n), spin_deg(n);
+  py::array_t<std::uint8_t> status(n);
+  const auto put = [](double* out, const Vec3& v) { std::copy_n(v.data(), 3, out); };
+  for (py::ssize_t i = 0; i < n; ++i) {
+    const Placement& p = all[std::size_t(i)];
+    put(tip.mutable_data(i, 0), p.pose.tip(tool));
+    put(axis.mutable_data(i, 0), p.pose.axis);
+    put(contacts.mutable_data(i, 0, 0), p.first_contact);
+    put(contacts.mutable_data(i, 1, 0), p.second_contact);
+    put(normals.mutable_data(i, 0, 0), p.first_normal);
+    put(normals.mutable_data(i, 1, 0), p.second_normal);
+    clearance.mutable_at(i, 0) = p.clearance_lo;
+    clearance.mutable_at(i, 1) = p.clearance_hi;
+    tilt_deg.mutable_at(i) = degrees(p.tilt);
+    spin_deg.mutable_at(i) = degrees(p.spin);
+    status.mutable_at(i) = std::uint8_t(p.status);
+  }
+  py::dict counters;
+  counters["evaluations"] = placements.counters.evaluations;
+  counters["newton_steps"] = placements.counters.newton_steps;
+  counters["cells"] = placements.counters.cells;
+  py::dict result;
+  result["tip"] = tip, result["axis"] = axis, result["contacts"] = contacts, result["normals"] = normals;
+  result["status"] = status, result["tilt_deg"] = tilt_deg, result["spin_deg"] = spin_deg;
+  result["clearance"] = clearance, result["counters"] = counters;
+  return result;
+}
+
+py::dict place(const std::string& method_name,
+               const SurfaceModel& model,
+               const Tool& tool,
+               const DoubleArray& points,
+               double tilt_max_deg,
+               double spin_deg,
+               const std::map<std::string, double>& options,
+               bool judge,
+               Context& context) {
+  const std::vector<Vec2> at = to_vectors<Vec2>(points, "points");
+  Placements placements;
+  {
+    py::gil_scoped_release release;
+    const auto method =
+        make_method(method_name, model, tool, {radians(tilt_max_deg), radians(spin_deg), options});
+    placements = place_all(*method, at, context);
+    if (judge) judge_by_sampling(model, tool, placements, context);
+  }
+  return to_dict(placements, tool);
+}
+
+py::array_t<double> sampled_clearance(const SurfaceModel& model,
+                                      const Tool& tool,
+                                      const DoubleArray& tips,
+                                      const DoubleArray& axes,
+                                      Context& context) {
+  const std::vector<Vec3> tip = to_vectors<Vec3>(tips, "tips"), axis = to_vectors<Vec3>(axes, "axes");
+  require(tip.size() == axis.size(), "tips and axes must have the same shape (N, 3)");
+  Placements placements;
+  placements.positions.resize(tip.size());
+  for (std::size_t i = 0; i < tip.size(); ++i)
+    placements.positions[i].pose = ToolPose::from_tip(tool, tip[i], axis[i]);
+  {
+    py::gil_scoped_release release;
+    judge_by_sampling(model, tool, placements, context);
+  }
+  py::array_t<double> result(py::ssize_t(tip.size()));
+  for (std::size_t i = 0; i < tip.size(); ++i)
+    result.mutable_at(py::ssize_t(i)) = placements.positions[i].clearance_hi;
+  return result;
+}
+
+py::array_t<bool> restrict_to_faces(const SurfaceModel& model,
+                                    const Tool& tool,
+                                    const DoubleArray& points,
+                                    double margin_mm) {
+  const std::vector<bool> over =
+      over_faces(PlanLocator(model, tool.radius() / 2), to_vectors<Vec2>(points, "points"), margin_mm);
+  py::array_t<bool> result(py::ssize_t(over.size()));
+  for (std::size_t i = 0; i < over.size(); ++i) result.mutable_at(py::ssize_t(i)) = over[i];
+  return result;
+}
+
+py::dict method_table() {
+  py::dict result;
+  for (const MethodInfo& m : methods()) {
+    py::dict one;
+    one["guarantee"] = m.guarantee;
+    one["options"] = m.numbers;
+    result[m.name] = one;
+  }
+  return result;
+}
+
+}  // namespace
+
+void bind_positioning(py::module_& m) {
+  m.attr("METHODS") = method_table();
+  py::list names;
+  for (const char* name : kPositionStatusNames) names.append(name);
+  m.attr("POSITION_STATUS") = py::tuple(names);
+  m.def("place",
+        &place,
+        py::arg("method"),
+        py::arg("model"),
+        py::arg("tool"),
+        py::arg("points"),
+        py::kw_only(),
+        py::arg("tilt_max_deg") = 45.0,
+        py::arg("spin_deg") = 0.0,
+        py::arg("options") = std::map<std::string, double>{},
+        py::arg("judge") = true,
+        py::arg("context"),
+        "Positions over plan points (N, 2) of the set-up frame. Dict of tip, axis (N, 3), contacts, normals "
+        "(N, 2, 3; "
+        "NaN: none), status (N,) codes of POSITION_STATUS, tilt_deg, spin_deg (N,), clearance (N, 2) mm "
+        "bounds (infinite: "
+        "nobody proved or measured one) and counters. judge: measure clearances by dense sampling.");
+  m.def("sampled_clearance",
+        &sampled_clearance,
+        py::arg("model"),
+        py::arg("tool"),
+        py::arg("tips"),
+        py::arg("axes"),
+        py::arg("context"),
+        "Least sampled signed distance (mm) of the surfaces from the tool at each tip, axis (N, 3); at most "
+        "the tool's "
+        "radius.");
+  m.def("restrict_to_faces",
+        &restrict_to_faces,
+        py::arg("model"),
+        py::arg("tool"),
+        py::arg("points"),
+        py::arg("margin_mm") = 0.0,
+        "Which plan points (N, 2) lie over a face to machine, or within margin_mm of one in plan.");
+}
+
+}  // namespace mpm::bindings

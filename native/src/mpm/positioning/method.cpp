@@ -1,0 +1,78 @@
+#include "mpm/positioning/method.h"
+
+#include <cmath>
+#include <mutex>
+
+#include "mpm/base/error.h"
+#include "mpm/base/parallel.h"
+#include "mpm/gouge/clearance_sampler.h"
+#include "mpm/positioning/vcrf.h"
+
+namespace mpm {
+namespace {
+
+constexpr std::size_t kGrain = 16;  // positions a task
+
+std::string names_of(const std::vector<MethodInfo>& all) {
+  std::string names;
+  for (const MethodInfo& m : all) names += (names.empty() ? "" : ", ") + std::string(m.name);
+  return names;
+}
+
+}  // namespace
+
+const std::vector<MethodInfo>& methods() {
+  static const std::vector<MethodInfo> all{{"vcrf", "sampled", vcrf_defaults(), make_vcrf}};
+  return all;
+}
+
+std::unique_ptr<Method> make_method(const std::string& name,
+                                    const SurfaceModel& model,
+                                    const Tool& tool,
+                                    MethodOptions options) {
+  require(std::isfinite(options.tilt_max) && options.tilt_max > 0 && options.tilt_max < kPi / 2,
+          "tilt_max_deg must be more than 0 and less than 90");
+  require(std::isfinite(options.spin), "spin_deg must be a finite angle");
+  for (const MethodInfo& m : methods()) {
+    if (name != m.name) continue;
+    std::map<std::string, double> numbers = m.numbers;
+    for (const auto& [key, value] : options.numbers) {
+      require(numbers.contains(key), "method " + name + " has no option '" + key + "'");
+      numbers[key] = value;
+    }
+    options.numbers = std::move(numbers);
+    return m.make(model, tool, options);
+  }
+  throw std::invalid_argument("unknown method '" + name + "'; there are: " + names_of(methods()));
+}
+
+Placements place_all(const Method& method, const std::vector<Vec2>& points, Context& context) {
+  Placements result;
+  result.positions.resize(points.size());
+  std::mutex adding;
+  context.start(points.size());
+  for_each_range(points.size(), kGrain, context, [&](std::size_t begin, std::size_t end) {
+    Counters work;
+    for (std::size_t i = begin; i < end && !context.cancelled(); ++i)
+      result.positions[i] = method.place(points[i], work);
+    const std::lock_guard lock(adding);
+    result.counters.add(work);
+  });
+  return result;
+}
+
+void judge_by_sampling(const SurfaceModel& model,
+                       const Tool& tool,
+                       Placements& placements,
+                       Context& context) {
+  const ClearanceSampler sampler(model, tool);
+  auto& positions = placements.positions;
+  context.start(positions.size());
+  for_each_range(positions.size(), kGrain, context, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end && !context.cancelled(); ++i)
+      if (positions[i].pose.axis.allFinite())
+        positions[i].clearance_hi = sampler(positions[i].pose, tool.radius()).distance;
+  });
+}
+
+}  // namespace mpm

@@ -1,0 +1,98 @@
+// The one interface of all positioning methods.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mpm/base/context.h"
+#include "mpm/surface/surface_model.h"
+#include "mpm/tool/tool.h"
+
+namespace mpm {
+
+// How a position ended (docs/methods/README.md explains each).
+enum class PositionStatus : std::uint8_t {
+  not_computed,       // cancelled before its turn
+  two_contacts,       // touches at P and at Q
+  curvature_matched,  // P and Q coincide in second-order contact
+  tilt_limited,       // the tilt limit came first; touches at P
+  one_contact,        // nothing to touch beside P
+  edge_contact,       // P lies on a border of its face
+  bridged,            // two contacts at tilt 0, or the tool does not fit
+  off_part,           // no face to machine under the tool
+  undecided,          // the method gave up; never to be taken for free
+};
+inline constexpr const char* kPositionStatusNames[] = {"not_computed",
+                                                       "two_contacts",
+                                                       "curvature_matched",
+                                                       "tilt_limited",
+                                                       "one_contact",
+                                                       "edge_contact",
+                                                       "bridged",
+                                                       "off_part",
+                                                       "undecided"};
+
+struct Placement {
+  PositionStatus status = PositionStatus::not_computed;
+  ToolPose pose{Vec3::Constant(kNaN), Vec3::Constant(kNaN)};
+  Vec3 first_contact = Vec3::Constant(kNaN), first_normal = first_contact;  // normals point to the tool
+  Vec3 second_contact = Vec3::Constant(kNaN), second_normal = second_contact;
+  double tilt = kNaN, spin = kNaN;                             // radians
+  double clearance_lo = -kInfinity, clearance_hi = kInfinity;  // mm; -inf: nobody proved a lower bound
+};
+
+// Work done, in numbers that do not depend on the machine.
+struct Counters {
+  std::uint64_t evaluations = 0;  // surface points, with or without derivatives
+  std::uint64_t newton_steps = 0;
+  std::uint64_t cells = 0;  // sub-patches bounded
+  void add(const Counters& c) {
+    evaluations += c.evaluations, newton_steps += c.newton_steps, cells += c.cells;
+  }
+};
+
+struct MethodOptions {
+  double tilt_max = kPi / 4;              // radians
+  double spin = 0;                        // radians; methods that cannot spin refuse any other value
+  std::map<std::string, double> numbers;  // the method's own, by name; unknown names are refused
+};
+
+// Positions one tool on one model. Set-up frame: the tool comes from +z. place() may be called from several
+// threads.
+class Method {
+ public:
+  virtual ~Method() = default;
+  // The tool over plan point `at`. Never throws for what the mathematics brings: that is the status.
+  virtual Placement place(const Vec2& at, Counters& counters) const = 0;
+};
+
+struct MethodInfo {
+  const char* name;
+  const char* guarantee;                  // "sampled" or "proven"
+  std::map<std::string, double> numbers;  // option names and the source's defaults
+  std::unique_ptr<Method> (*make)(const SurfaceModel&, const Tool&, const MethodOptions&);
+};
+
+const std::vector<MethodInfo>& methods();
+
+// Throws std::invalid_argument for an unknown method or option.
+std::unique_ptr<Method> make_method(const std::string& name,
+                                    const SurfaceModel& model,
+                                    const Tool& tool,
+                                    MethodOptions options);
+
+struct Placements {
+  std::vector<Placement> positions;  // one a point, in the order of the points
+  Counters counters;
+};
+
+// Every point in parallel; the result does not depend on the number of threads.
+Placements place_all(const Method& method, const std::vector<Vec2>& points, Context& context);
+
+// Fills clearance_hi of every placed position by dense sampling (see gouge/clearance_sampler.h).
+void judge_by_sampling(const SurfaceModel& model, const Tool& tool, Placements& placements, Context& context);
+
+}  // namespace mpm
