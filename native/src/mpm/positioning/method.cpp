@@ -6,6 +6,7 @@
 #include "mpm/base/error.h"
 #include "mpm/base/parallel.h"
 #include "mpm/gouge/clearance_sampler.h"
+#include "mpm/positioning/exact.h"
 #include "mpm/positioning/vcrf.h"
 
 namespace mpm {
@@ -22,7 +23,8 @@ std::string names_of(const std::vector<MethodInfo>& all) {
 }  // namespace
 
 const std::vector<MethodInfo>& methods() {
-  static const std::vector<MethodInfo> all{{"vcrf", "sampled", vcrf_defaults(), make_vcrf}};
+  static const std::vector<MethodInfo> all{{"exact", "proven", exact_defaults(), make_exact},
+                                           {"vcrf", "sampled", vcrf_defaults(), make_vcrf}};
   return all;
 }
 

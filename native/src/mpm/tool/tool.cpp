@@ -9,21 +9,6 @@
 namespace mpm {
 namespace {
 
-// Signed distance from the trapezoid r <= radius(z), z in [z0, z1], radius linear from r0 to r1: a truncated
-// cone in the half-plane through the axis.
-double cone_distance(double r, double z, double r0, double r1, double z0, double z1) {
-  const double below = z0 - z, above = z - z1;
-  const double length = z1 - z0, slant = std::hypot(length, r1 - r0);
-  const double side = (length * (r - r0) - (r1 - r0) * (z - z0)) / slant;  // beyond the slanted side
-  const double inside = std::max({below, above, side});
-  if (inside <= 0) return inside;
-  // Outside: nearest point of the three boundary segments.
-  const auto to_disc = [&](double radius, double dz) { return std::hypot(std::max(r - radius, 0.0), dz); };
-  const double t = std::clamp(((r - r0) * (r1 - r0) + (z - z0) * length) / (slant * slant), 0.0, 1.0);
-  const double to_side = std::hypot(r - (r0 + t * (r1 - r0)), z - (z0 + t * length));
-  return std::min({to_disc(r0, below), to_disc(r1, above), to_side});
-}
-
 void check_length(double value, const char* name, bool may_be_zero) {
   require(std::isfinite(value) && (value > 0 || (may_be_zero && value == 0)),
           std::string(name) + " must be a " + (may_be_zero ? "non-negative" : "positive") +
@@ -31,6 +16,28 @@ void check_length(double value, const char* name, bool may_be_zero) {
 }
 
 }  // namespace
+
+ConeDistance cone_distance(double r, double z, double r0, double r1, double z0, double z1) {
+  const double length = z1 - z0, slant = std::hypot(length, r1 - r0);
+  const double below = z0 - z, above = z - z1;
+  const double side = (length * (r - r0) - (r1 - r0) * (z - z0)) / slant;  // beyond the slanted side
+  if (below <= 0 && above <= 0 && side <= 0) {
+    if (side >= below && side >= above) return {side, length / slant, -(r1 - r0) / slant};
+    return below >= above ? ConeDistance{below, 0, -1} : ConeDistance{above, 0, 1};
+  }
+  // Outside: the nearest point of the two discs and the slanted side.
+  const double t = std::clamp(((r - r0) * (r1 - r0) + (z - z0) * length) / (slant * slant), 0.0, 1.0);
+  const Vec2 nearest[] = {
+      {std::min(r, r0), z0}, {std::min(r, r1), z1}, {r0 + t * (r1 - r0), z0 + t * length}};
+  ConeDistance best{kInfinity, 0, 0};
+  for (const Vec2& p : nearest) {
+    const double distance = std::hypot(r - p.x(), z - p.y());
+    if (distance < best.distance) best = {distance, (r - p.x()) / distance, (z - p.y()) / distance};
+  }
+  // On the side itself the quotient above is 0/0: take the side's normal.
+  if (best.distance == 0) best = {0, length / slant, -(r1 - r0) / slant};
+  return best;
+}
 
 double Tool::length() const {
   double total = flute_length;
@@ -66,13 +73,15 @@ void check_tool(const Tool& tool) {
 double signed_distance(const Tool& tool, double r, double z) {
   const double ring = std::hypot(r - tool.major_radius, z) - tool.minor_radius;
   double top = tool.flute_length - tool.minor_radius;
-  double distance = std::min(ring, cone_distance(r, z, tool.radius(), tool.radius(), 0.0, top));
+  double distance = std::min(ring, cone_distance(r, z, tool.radius(), tool.radius(), 0.0, top).distance);
   if (tool.major_radius > 0) {
     const double bottom = tool.recess - tool.minor_radius;
-    distance = std::min(distance, cone_distance(r, z, tool.major_radius, tool.major_radius, bottom, top));
+    distance =
+        std::min(distance, cone_distance(r, z, tool.major_radius, tool.major_radius, bottom, top).distance);
   }
   for (const ToolSegment& s : tool.segments) {
-    distance = std::min(distance, cone_distance(r, z, s.bottom_radius, s.top_radius, top, top + s.length));
+    distance =
+        std::min(distance, cone_distance(r, z, s.bottom_radius, s.top_radius, top, top + s.length).distance);
     top += s.length;
   }
   return distance;

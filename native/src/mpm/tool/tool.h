@@ -31,6 +31,14 @@ struct Tool {
 // Throws std::invalid_argument naming the radius or length that is wrong.
 void check_tool(const Tool& tool);
 
+// Signed distance (mm) from the truncated cone of radius r0 at height z0 to r1 at z1 about the axis, at
+// radius r >= 0 and height z, and its gradient there (of unit length; where the distance has a kink, one of
+// its subgradients).
+struct ConeDistance {
+  double distance, slope_r, slope_z;
+};
+ConeDistance cone_distance(double r, double z, double r0, double r1, double z0, double z1);
+
 // Distance (mm) of a point at radius r >= 0 and height z of the tool frame from the tool's body: positive
 // outside, where it is exact; negative inside, where its size is at most the true depth.
 double signed_distance(const Tool& tool, double r, double z);

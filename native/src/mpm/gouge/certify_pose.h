@@ -1,0 +1,45 @@
+// The judge of one pose: branch and bound over the whole surface set and the whole tool. Uses nothing of the
+// positioning.
+#pragma once
+
+#include <cstdint>
+
+#include "mpm/base/verdict.h"
+#include "mpm/surface/cell_tree.h"
+#include "mpm/tool/tool.h"
+
+namespace mpm {
+
+struct Witness {
+  std::uint32_t face = 0;
+  double u = kNaN, v = kNaN;
+  Vec3 s = Vec3::Constant(kNaN);
+  double distance = kInfinity;  // signed, mm
+};
+
+struct Certificate {
+  Verdict verdict = Verdict::undecided;
+  double lo = -kInfinity;   // mm: the clearance is proven to be at least this (0 where nothing came near)
+  double hi = kInfinity;    // mm: the clearance is at most this (the witness has it)
+  Witness witness;          // the lowest surface point met
+  std::uint64_t cells = 0;  // sub-patches bounded
+};
+
+struct CertifyOptions {
+  double tolerance = 1e-3;         // mm: what may be cut in and still be called free
+  double sharpness = 1e-3;         // mm: while the sharp budget lasts, cells are split until proven to this
+  double enough = 0.0;             // mm: lower bounds beyond this are not sharpened
+  std::uint32_t sharp_budget = 0;  // cells
+  std::uint32_t budget = 200'000;  // cells; beyond it the verdict is undecided
+  bool stop_at_violation = false;  // return at the first surface point deeper than `sharpness`
+};
+
+// Proves a lower bound of the clearance of the tool at `pose` from every face. free: lo >= -tolerance; gouge:
+// a surface point deeper than the tolerance is in `witness`; undecided: the budget ran out. Pieces of trimmed
+// faces too small to tell from their border (kTrimResolution) count as surface.
+Certificate certify_pose(const CellTree& tree,
+                         const Tool& tool,
+                         const ToolPose& pose,
+                         const CertifyOptions& options);
+
+}  // namespace mpm

@@ -1,0 +1,235 @@
+#include "mpm/positioning/exact.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mpm/base/error.h"
+#include "mpm/base/frame.h"
+#include "mpm/contact/curvature_limit.h"
+#include "mpm/gouge/certify_pose.h"
+
+namespace mpm {
+namespace {
+
+constexpr double kLeafPerRadius = 1.0 / 12;  // finest precomputed cells against the cutter's radius
+constexpr double kStartPerRadius = 1.0 / 4;  // cells whose centres start the searches
+constexpr double kSharpness = 1e-9;          // mm: contacts are found to this depth
+constexpr double kSharpRoundoff = 4096 * kRoundoff;
+constexpr std::uint32_t kSharpBudget = 4000;  // cells; a ring lying on the surface is not resolved further
+constexpr int kMaxRounds = 64;                // contacts tried before a position is given up
+constexpr double kMerged = 0.02;              // mm: a second contact nearer than this is the first
+constexpr double kNoTilt = 1e-9;              // rad
+
+struct Start {
+  std::uint32_t face;
+  double u, v;
+  Vec3 s;
+};
+
+class Exact final : public Method {
+ public:
+  Exact(const SurfaceModel& model, const Tool& tool, const MethodOptions& options)
+      : model_(model),
+        tool_(tool),
+        tree_(model, tool.radius() * kLeafPerRadius),
+        tilt_max_(options.tilt_max),
+        spin_(options.spin) {
+    const Box3& box = model.bounds();
+    const double size = std::max(box.lo.cwiseAbs().maxCoeff(), box.hi.cwiseAbs().maxCoeff()) + tool.length();
+    judge_.tolerance = options.numbers.at("gouge_mm");
+    judge_.budget = std::uint32_t(options.numbers.at("cell_budget"));
+    judge_.sharpness = std::min(std::max(kSharpness, kSharpRoundoff * size), judge_.tolerance);
+    judge_.sharp_budget = std::min(kSharpBudget, judge_.budget / 2);
+    judge_.stop_at_violation = true;
+  }
+
+  Placement place(const Vec2& at, Counters& counters) const override;
+
+ private:
+  struct Touch {
+    std::uint32_t face = 0;
+    Arrival at;
+    bool found() const { return at.x < kInfinity; }
+  };
+
+  void starts_under(const Vec2& at, std::vector<Start>& starts) const;
+  template <class Approach>
+  Touch best_start(const Approach& approach,
+                   const std::vector<Start>& starts,
+                   double limit,
+                   Counters& counters) const;
+  template <class Approach>
+  Touch refine(const Approach& approach, std::uint32_t face, double u, double v, Counters& counters) const;
+  template <class Approach>
+  Certificate first_touch(const Approach& approach, double& x, Touch& touch, Counters& counters) const;
+  void tilt(const Touch& first,
+            const std::vector<Start>& starts,
+            Placement& placement,
+            Counters& counters) const;
+  void finish(Placement& placement, const Certificate& certificate, Counters& counters) const;
+
+  const SurfaceModel& model_;
+  Tool tool_;
+  CellTree tree_;
+  double tilt_max_, spin_;
+  CertifyOptions judge_;
+};
+
+// Centres of the cells of about a quarter of the cutter's radius under its shadow.
+void Exact::starts_under(const Vec2& at, std::vector<Start>& starts) const {
+  starts.clear();
+  std::vector<std::uint32_t> stack(tree_.roots().begin(), tree_.roots().end());
+  while (!stack.empty()) {
+    const CellTree::Node& node = tree_.nodes()[stack.back()];
+    stack.pop_back();
+    if ((node.cell.c.head<2>() - at).norm() > tool_.radius() + node.cell.radius) continue;
+    if (node.children > 0 && node.cell.radius > kStartPerRadius * tool_.radius()) {
+      for (std::uint32_t i = 0; i < node.children; ++i) stack.push_back(node.first_child + i);
+      continue;
+    }
+    const double u = node.box.u_mid(), v = node.box.v_mid();
+    if (!node.trimmed || model_.faces()[node.face].trim.contains(u, v))
+      starts.push_back({node.face, u, v, node.cell.c});
+  }
+}
+
+template <class Approach>
+Exact::Touch Exact::refine(
+    const Approach& approach, std::uint32_t face, double u, double v, Counters& counters) const {
+  Touch touch{face, first_arrival(tool_, approach, model_.faces()[face], u, v)};
+  counters.newton_steps += std::uint64_t(touch.at.newton_steps);
+  counters.evaluations += std::uint64_t(touch.at.newton_steps) + 1;
+  return touch;
+}
+
+// The arrival of the start that arrives first, refined; not found when none arrives before `limit`.
+template <class Approach>
+Exact::Touch Exact::best_start(const Approach& approach,
+                               const std::vector<Start>& starts,
+                               double limit,
+                               Counters& counters) const {
+  const Start* best = nullptr;
+  double least = limit;
+  for (const Start& s : starts) {
+    const double x = approach.arrival(s.s);
+    if (x < least) least = x, best = &s;
+  }
+  return best ? refine(approach, best->face, best->u, best->v, counters) : Touch{};
+}
+
+// Brings x down to the first touch: the judge looks at the pose at x; where it finds surface inside the tool,
+// that point's own first arrival is the next x, until it finds none. The last certificate belongs to the pose
+// at x.
+template <class Approach>
+Certificate Exact::first_touch(const Approach& approach, double& x, Touch& touch, Counters& counters) const {
+  Certificate certificate;
+  CertifyOptions options = judge_;
+  for (int round = 0; round <= kMaxRounds; ++round) {
+    certificate = certify_pose(tree_, tool_, approach.pose(x), options);
+    counters.cells += certificate.cells;
+    if (!options.stop_at_violation || certificate.witness.distance >= -options.sharpness) return certificate;
+    const Witness& w = certificate.witness;
+    const Touch next = refine(approach, w.face, w.u, w.v, counters);
+    if (next.at.x < x && round < kMaxRounds) {
+      x = next.at.x;
+      touch = next;
+    } else {  // no earlier arrival: not the ring, or rounding; judge the pose as it is
+      options.stop_at_violation = false;
+      options.sharpness = options.tolerance;
+    }
+  }
+  return certificate;
+}
+
+void Exact::finish(Placement& placement, const Certificate& certificate, Counters&) const {
+  placement.clearance_lo = certificate.lo;
+  placement.clearance_hi = std::min(certificate.hi, 0.0 <= certificate.hi ? certificate.hi : certificate.hi);
+  if (certificate.verdict == Verdict::undecided) placement.status = PositionStatus::undecided;
+}
+
+void Exact::tilt(const Touch& first,
+                 const std::vector<Start>& starts,
+                 Placement& placement,
+                 Counters& counters) const {
+  Insert insert = insert_through(tool_, placement.pose, first.at.s);
+  if (spin_ != 0) {
+    const Mat3 turn = rotation(placement.first_normal, spin_);
+    insert = {insert.center, turn * insert.u1, turn * insert.v1, turn * insert.w1};
+  }
+  const SurfacePoint p = model_.faces()[first.face].surface.evaluate(first.at.u, first.at.v);
+  const double curvature = curvature_limit(tool_, insert, p, first.at);
+  const double limit = std::max(0.0, std::min(curvature, tilt_max_));
+  const Tilt approach(tool_, insert);
+  double x = limit;
+  Touch second = best_start(approach, starts, x, counters);
+  if (second.found() && second.at.x < x)
+    x = second.at.x;
+  else
+    second = {};
+  const Certificate certificate = first_touch(approach, x, second, counters);
+
+  const double open_side =
+      spin_ != 0 ? -std::atan2(placement.first_normal.dot(insert.w1), placement.first_normal.dot(insert.v1))
+                 : 0.0;
+  const bool merged = second.found() && (second.at.s - first.at.s).norm() < kMerged;
+  const bool held = first.at.on_border_u || first.at.on_border_v;
+  placement.tilt = std::max(x, open_side);
+  placement.pose = tilted(tool_, insert, placement.tilt);
+  if (second.found() && !merged && x > open_side + kNoTilt)
+    placement.status = PositionStatus::two_contacts;
+  else if (x <= open_side + kNoTilt)
+    placement.status = PositionStatus::bridged;
+  else if (merged || curvature <= tilt_max_)
+    placement.status = PositionStatus::curvature_matched;
+  else
+    placement.status = held ? PositionStatus::edge_contact : PositionStatus::tilt_limited;
+  if (second.found() && !merged) {
+    placement.second_contact = second.at.s;
+    placement.second_normal = -ring_distance(tool_, placement.pose, second.at.s).gradient;
+  }
+  finish(placement, certificate, counters);
+}
+
+Placement Exact::place(const Vec2& at, Counters& counters) const {
+  thread_local std::vector<Start> starts;
+  starts_under(at, starts);
+  Placement placement;
+  placement.status = PositionStatus::off_part;
+  const Drop approach(tool_, at);
+  Touch first = best_start(approach, starts, kInfinity, counters);
+  if (!first.found()) return placement;
+  double x = first.at.x;
+  const Certificate certificate = first_touch(approach, x, first, counters);
+  if (model_.faces()[first.face].check) return placement;
+  placement.pose = approach.pose(x);
+  placement.first_contact = first.at.s;
+  placement.tilt = 0;
+  placement.spin = spin_;
+  placement.first_normal = -ring_distance(tool_, placement.pose, first.at.s).gradient;
+  const bool on_axis = !((first.at.s - placement.pose.torus_center).head<2>().norm() > kMerged);
+  if (tool_.major_radius > 0 && !on_axis && certificate.verdict == Verdict::free) {
+    tilt(first, starts, placement, counters);
+  } else {
+    placement.status = PositionStatus::one_contact;
+    finish(placement, certificate, counters);
+  }
+  return placement;
+}
+
+}  // namespace
+
+std::map<std::string, double> exact_defaults() { return {{"gouge_mm", 1e-3}, {"cell_budget", 200'000}}; }
+
+std::unique_ptr<Method> make_exact(const SurfaceModel& model,
+                                   const Tool& tool,
+                                   const MethodOptions& options) {
+  require(tool.minor_radius > 0,
+          "minor_radius_mm: exact needs a rounded ring; for a flat end mill give its edge radius, for "
+          "example 0.01");
+  const double tolerance = options.numbers.at("gouge_mm"), budget = options.numbers.at("cell_budget");
+  require(std::isfinite(tolerance) && tolerance > 0, "gouge_mm must be a positive number of mm");
+  require(budget >= 1000 && budget <= 1e9, "cell_budget must be 1000 to 1e9");
+  return std::make_unique<Exact>(model, tool, options);
+}
+
+}  // namespace mpm

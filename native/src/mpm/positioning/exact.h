@@ -1,0 +1,16 @@
+// Proven two-contact positions: first further contact by branch and bound, certified. Note:
+// docs/methods/exact.md.
+#pragma once
+
+#include "mpm/positioning/method.h"
+
+namespace mpm {
+
+// gouge_mm: the certificate's tolerance; cell_budget: sub-patches a certificate may look at before it is
+// undecided.
+std::map<std::string, double> exact_defaults();
+
+// Requires minor_radius > 0 (a sharp edge has no insert to roll on). Any spin.
+std::unique_ptr<Method> make_exact(const SurfaceModel& model, const Tool& tool, const MethodOptions& options);
+
+}  // namespace mpm

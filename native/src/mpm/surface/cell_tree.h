@@ -1,0 +1,45 @@
+// A quadtree of quadratic cells over every face: bounds at every scale, from the whole face to a fraction of
+// the tool.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mpm/surface/quadratic_cell.h"
+#include "mpm/surface/surface_model.h"
+
+namespace mpm {
+
+class CellTree {
+ public:
+  struct Node {
+    QuadraticCell cell;
+    ParamBox box;
+    std::uint32_t first_child = 0;  // children are consecutive
+    std::uint8_t children = 0;      // 0: a leaf
+    bool trimmed = false;           // a trim boundary crosses it: part of it may not belong to the face
+    std::uint32_t face = 0;
+    // Of a leaf only.
+    const BezierPatch* patch = nullptr;
+    double third = 0;  // third_derivative_bound over the leaf
+  };
+
+  // Leaves are about `leaf_size` mm or less, or as small as `max_leaves` allows (at least one a Bézier
+  // patch). The model must outlive the tree.
+  CellTree(const SurfaceModel& model, double leaf_size, std::size_t max_leaves = 200'000);
+
+  const SurfaceModel& model() const { return model_; }
+  const std::vector<Node>& nodes() const { return nodes_; }
+  const std::vector<std::uint32_t>& roots() const {
+    return roots_;
+  }  // one a face that is not wholly trimmed away
+
+ private:
+  void add_face(std::uint32_t face, double leaf_size);
+
+  const SurfaceModel& model_;
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> roots_;
+};
+
+}  // namespace mpm
