@@ -33,6 +33,11 @@ def between(lo: float, hi: float, unit: str) -> Check:
     return lambda value: _number(value, lambda x: lo <= x <= hi, f"a number of {unit} from {lo:g} to {hi:g}")
 
 
+def inside(lo: float, hi: float, unit: str) -> Check:
+    what = f"a number of {unit} more than {lo:g} and less than {hi:g}"
+    return lambda value: _number(value, lambda x: lo < x < hi, what)
+
+
 def whole(lo: int, hi: int) -> Check:
     def check(value: Any) -> int:
         if isinstance(value, int) and not isinstance(value, bool) and lo <= value <= hi:
@@ -62,7 +67,11 @@ def path(value: Any) -> str:
 
 
 def texts(value: Any) -> tuple[str, ...]:
-    if isinstance(value, Sequence) and not isinstance(value, str) and all(isinstance(one, str) for one in value):
+    if (
+        isinstance(value, Sequence)
+        and not isinstance(value, str)
+        and all(isinstance(one, str) for one in value)
+    ):
         return tuple(value)
     _refuse('a list of names such as ["Face1"]', value)
 
@@ -76,7 +85,12 @@ def options(value: Any) -> dict[str, Any]:
 
 
 def vector(value: Any) -> Vector:
-    if isinstance(value, Sequence) and not isinstance(value, str) and len(value) == 3 and all(map(_finite, value)):
+    if (
+        isinstance(value, Sequence)
+        and not isinstance(value, str)
+        and len(value) == 3
+        and all(map(_finite, value))
+    ):
         x, y, z = (float(one) for one in value)
         return x, y, z
     _refuse("three finite numbers", value)

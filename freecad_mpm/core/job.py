@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from . import checks, tools
-from .checks import Vector, between, choice, positive
+from .checks import Vector, between, choice, inside, positive
 from .errors import InputError
 from .sections import Section, key, read_toml, suggestion
 from .tools import ToolSpec
@@ -69,7 +69,7 @@ class MethodSpec(Section):
 
     name: str = key(checks.text, DEFAULT_METHOD)
     spin_deg: float = key(between(-180, 180, "degrees"), 0.0)
-    tilt_max_deg: float = key(between(0, 90, "degrees"), 45.0)
+    tilt_max_deg: float = key(inside(0, 90, "degrees"), 45.0)
     options: dict[str, Any] = field(default_factory=dict, metadata={"check": checks.options})
 
 
@@ -81,6 +81,18 @@ class Tolerance(Section):
 
     gouge_mm: float = key(positive("mm"), 0.001)
     chord_mm: float = key(positive("mm"), 0.01)
+
+
+@dataclass(frozen=True)
+class LinkSpec(Section):
+    """How the tool gets from one cut to the next."""
+
+    table: ClassVar[str] = "link"
+
+    safe_clearance_mm: float = key(
+        positive("mm"), 5.0
+    )  # between the part and the whole tool on the safe plane
+    approach_distance_mm: float = key(positive("mm"), 2.0)  # how near to the part a rapid may come
 
 
 @dataclass(frozen=True)
@@ -106,7 +118,7 @@ class PostSpec(Section):
 
 SECTIONS: dict[str, type[Section]] = {
     one.table: one
-    for one in (Part, Setup, ToolSpec, FootprintSpec, MethodSpec, Tolerance, MachineSpec, PostSpec)
+    for one in (Part, Setup, ToolSpec, FootprintSpec, MethodSpec, Tolerance, LinkSpec, MachineSpec, PostSpec)
 }
 
 
@@ -118,6 +130,7 @@ class Job:
     footprint: FootprintSpec = FootprintSpec()
     method: MethodSpec = MethodSpec()
     tolerance: Tolerance = Tolerance()
+    link: LinkSpec = LinkSpec()
     machine: MachineSpec = MachineSpec()
     post: PostSpec = PostSpec()
     source: str = field(default="job", compare=False)  # put in front of messages: the file it came from
@@ -146,7 +159,9 @@ def from_tables(tables: Mapping[str, Any], folder: Path) -> Job:
     for name in ("part", "tool"):
         if name not in tables:
             raise InputError(f"[{name}]: is missing")
-    sections: dict[str, Any] = {name: SECTIONS[name].from_table(tables[name]) for name in tables if name != "tool"}
+    sections: dict[str, Any] = {
+        name: SECTIONS[name].from_table(tables[name]) for name in tables if name != "tool"
+    }
     part = sections.pop("part")
     if not part.file:
         raise Part.error("file", "must be the name of a STEP, IGES, BREP or Bézier text file, got ''")

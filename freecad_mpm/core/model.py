@@ -1,0 +1,89 @@
+"""From the part's faces to the native surface model: which faces, in which frame."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from .. import _core
+from .errors import blame
+from .faces import FaceArrays
+from .frame import Frame
+from .job import Job, Part, ToolSpec
+
+# So many names are listed one by one in a message; of more, the first and the last.
+LISTED_NAMES = 12
+
+
+def machined_and_check(job: Job, faces: Sequence[FaceArrays]) -> tuple[list[FaceArrays], list[FaceArrays]]:
+    """The faces to machine and those to keep clear of, as the job names them.
+
+    Raises InputError for a name that is no face's, or that is in both lists."""
+    part = job.part
+    machined = _named(job, faces, "faces", part.faces or [face.name for face in faces])
+    others = [face.name for face in faces if face.name not in part.faces] if part.faces else []
+    check = _named(job, faces, "check_faces", part.check_faces or others)
+    both = {face.name for face in machined} & {face.name for face in check}
+    if both:
+        raise job.error(
+            Part.table, "check_faces", f"must not name a face to machine, got {', '.join(sorted(both))}"
+        )
+    return machined, check
+
+
+def _named(job: Job, faces: Sequence[FaceArrays], key: str, names: Sequence[str]) -> list[FaceArrays]:
+    known = {face.name: face for face in faces}
+    for name in names:
+        if name not in known:
+            there_are = f"no such face in {job.part.file or 'the part'}; there are {listing(list(known))}"
+            raise job.error(Part.table, key, f"'{name}': {there_are}")
+    return [known[name] for name in dict.fromkeys(names)]
+
+
+def listing(names: Sequence[str]) -> str:
+    """Names for a message, shortened when there are many."""
+    if len(names) <= LISTED_NAMES:
+        return ", ".join(names)
+    return f"{names[0]} to {names[-1]} ({len(names)} faces)"
+
+
+def surface_model(
+    machined: Sequence[FaceArrays], check: Sequence[FaceArrays], frame: Frame
+) -> _core.SurfaceModel:
+    """The native model of all faces in the set-up frame."""
+    return _core.SurfaceModel(
+        [_native_face(face, frame, False) for face in machined]
+        + [_native_face(face, frame, True) for face in check]
+    )
+
+
+def _native_face(face: FaceArrays, frame: Frame, check: bool) -> _core.Face:
+    with blame(f"face {face.name}:"):
+        surface = _core.BSplineSurface(
+            face.degree_u, face.degree_v, face.knots_u, face.knots_v, frame.to_setup(face.poles), face.weights
+        )
+        return _core.Face(face.name, surface, list(face.trim_loops), check=check)
+
+
+def native_tool(tool: ToolSpec) -> _core.Tool:
+    """The native cutter with shank and holder."""
+    segments = [
+        (one.bottom_radius_mm, one.top_radius_mm, one.length_mm) for one in (*tool.shank, *tool.holder)
+    ]
+    with blame(f"[{tool.table}]"):
+        return _core.Tool(
+            tool.major_radius_mm, tool.minor_radius_mm, tool.recess_mm, tool.flute_length_mm, segments
+        )
+
+
+def describe(face: FaceArrays) -> str:
+    """One line about a face: name, kind, degrees, poles, box in the part's frame."""
+    trim = f", {len(face.trim_loops)} trim loops" if face.trim_loops else ""
+    rational = ", rational" if face.weights is not None else ""
+    box = surface_model([face], [], Frame(np.zeros(3), np.eye(3))).bounds()
+    low, high = ("(" + ", ".join(f"{x:.3f}" for x in corner + 0.0) + ")" for corner in box)
+    return (
+        f"{face.name}: {face.kind}, degrees {face.degree_u} x {face.degree_v}, "
+        f"poles {face.poles.shape[0]} x {face.poles.shape[1]}{rational}{trim}, box {low} to {high} mm"
+    )
