@@ -1,7 +1,8 @@
 """The cutter-location file cl.csv, written and read.
 
-Part frame, mm, nine decimals; one row a move in machining order. `index` counts the positions of a pass from 0 and is -1
-for a move that ends in no position; then status, contacts, tilt and spin are empty."""
+Part frame, mm, nine decimals; rows in machining order. Every position on the path is one row of kind cut, whose `index`
+counts the positions of its pass from 0. All other rows have index -1 and no status, contacts, angles or clearances: the
+plunge to the first position of a pass stands in a row of its own before it."""
 
 from __future__ import annotations
 
@@ -28,16 +29,26 @@ AXIS_LENGTH_SLACK = 1e-3
 
 def to_csv(positions: Positions, path: Path) -> str:
     """The text of cl.csv for a path over positions, both in the part's frame."""
-    columns = (
-        path.pass_index.tolist(),
-        _index_in_pass(positions)[path.position].tolist(),
-        path.kind.tolist(),
-    )
-    status = np.append(positions.status, "")[path.position].tolist()
-    poses = _texts(np.hstack((path.tip, path.axis)))
-    details = _texts(_details(positions, path))
+    kind, position, row_of = _rows(path)
+    columns = (path.pass_index[row_of].tolist(), _index_in_pass(positions)[position].tolist(), kind.tolist())
+    status = np.append(positions.status, "")[position].tolist()
+    poses = _texts(np.hstack((path.tip, path.axis))[row_of])
+    details = _texts(_details(positions)[position])
     rows = zip(*columns, status, poses, details)
     return "\n".join([HEADER, *(",".join(map(str, row)) for row in rows), ""])
+
+
+def _rows(path: Path) -> tuple[Names, Integers, Integers]:
+    """Kind, position and move of every row: a plunge that ends in a position becomes two, the plunge and a cut."""
+    arrives = (path.kind != "cut") & (path.position >= 0)
+    row_of = np.repeat(np.arange(len(path)), 1 + arrives)
+    is_arrival = np.append(row_of[1:] == row_of[:-1], False)  # the first of two rows
+    kind, position = path.kind[row_of], path.position[row_of]
+    return (
+        np.where(position >= 0, np.where(is_arrival, kind, "cut"), kind),
+        np.where(is_arrival, -1, position),
+        row_of,
+    )
 
 
 def _index_in_pass(positions: Positions) -> Integers:
@@ -47,11 +58,11 @@ def _index_in_pass(positions: Positions) -> Integers:
     return np.append(np.arange(len(passes)) - first, -1)
 
 
-def _details(positions: Positions, path: Path) -> Floats:
-    """(M, 10): contacts, tilt, spin and clearance of the position each move ends in; NaN where there is none."""
-    tilt_spin = np.column_stack((positions.tilt_deg, positions.spin_deg))
-    table = np.hstack((positions.contacts.reshape(-1, 6), tilt_spin, positions.clearance))
-    return np.vstack((table, np.full((1, table.shape[1]), np.nan)))[path.position]
+def _details(positions: Positions) -> Floats:
+    """(N + 1, 10): contacts, tilt, spin and clearance of each position; the last row, NaN, is what index -1 finds."""
+    angles = np.column_stack((positions.tilt_deg, positions.spin_deg))
+    table = np.hstack((positions.contacts.reshape(-1, 6), angles, positions.clearance))
+    return np.vstack((table, np.full((1, table.shape[1]), np.nan)))
 
 
 def _texts(table: Floats) -> list[str]:

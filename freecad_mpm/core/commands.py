@@ -8,8 +8,7 @@ from . import bench as benchmark
 from . import job, output, planning, report, results
 from .cl_file import read_csv
 from .console import ProgressLine
-from .model import describe
-from .part_file import read_part
+from .info import info_lines
 from .stages import Stages
 from .verification import verify as verify_moves
 
@@ -28,8 +27,7 @@ def plan(arguments: Namespace, progress: ProgressLine) -> int:
 
 
 def info(arguments: Namespace, progress: ProgressLine) -> int:
-    for face in read_part(arguments.file):
-        print(describe(face))
+    print(*info_lines(arguments.file), sep="\n")
     return GOOD
 
 

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
-
 from .. import _core
 from .errors import blame
-from .faces import FaceArrays
+from .faces import FaceArrays, to_core
 from .frame import Frame
 from .job import Job, Part, ToolSpec
 
@@ -52,18 +50,8 @@ def surface_model(
     machined: Sequence[FaceArrays], check: Sequence[FaceArrays], frame: Frame
 ) -> _core.SurfaceModel:
     """The native model of all faces in the set-up frame."""
-    return _core.SurfaceModel(
-        [_native_face(face, frame, False) for face in machined]
-        + [_native_face(face, frame, True) for face in check]
-    )
-
-
-def _native_face(face: FaceArrays, frame: Frame, check: bool) -> _core.Face:
-    with blame(f"face {face.name}:"):
-        surface = _core.BSplineSurface(
-            face.degree_u, face.degree_v, face.knots_u, face.knots_v, frame.to_setup(face.poles), face.weights
-        )
-        return _core.Face(face.name, surface, list(face.trim_loops), check=check)
+    native = [to_core(face.transformed(frame)) for face in machined]
+    return _core.SurfaceModel(native + [to_core(face.transformed(frame), check=True) for face in check])
 
 
 def native_tool(tool: ToolSpec) -> _core.Tool:
@@ -75,15 +63,3 @@ def native_tool(tool: ToolSpec) -> _core.Tool:
         return _core.Tool(
             tool.major_radius_mm, tool.minor_radius_mm, tool.recess_mm, tool.flute_length_mm, segments
         )
-
-
-def describe(face: FaceArrays) -> str:
-    """One line about a face: name, kind, degrees, poles, box in the part's frame."""
-    trim = f", {len(face.trim_loops)} trim loops" if face.trim_loops else ""
-    rational = ", rational" if face.weights is not None else ""
-    box = surface_model([face], [], Frame(np.zeros(3), np.eye(3))).bounds()
-    low, high = ("(" + ", ".join(f"{x:.3f}" for x in corner + 0.0) + ")" for corner in box)
-    return (
-        f"{face.name}: {face.kind}, degrees {face.degree_u} x {face.degree_v}, "
-        f"poles {face.poles.shape[0]} x {face.poles.shape[1]}{rational}{trim}, box {low} to {high} mm"
-    )

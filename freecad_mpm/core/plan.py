@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .job import Job
+from .machine_path import MachinePath
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -59,11 +60,19 @@ class Path:
 
 
 @dataclass(frozen=True)
+class ProgramFile:
+    """The post's text and the file name it belongs under."""
+
+    file_name: str
+    text: str
+
+
+@dataclass(frozen=True)
 class Plan(Positions):
-    """A computed job: its positions, the path over them, the machine's joints, the program and the report."""
+    """A computed job: its positions, the path over them, and what was made of it."""
 
     job: Job
     path: Path
-    joints: Any
-    program: Any
+    joints: MachinePath  # set-up frame, with the moves the machine needs in between
+    program: ProgramFile
     report: dict[str, Any]

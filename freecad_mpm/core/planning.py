@@ -12,11 +12,12 @@ from . import report
 from .errors import blame
 from .faces import FaceArrays
 from .frame import Array, Frame, frame_of
-from .job import FootprintSpec, Job, MethodSpec
+from .job import Job, MethodSpec
 from .model import machined_and_check, native_tool, surface_model
 from .part_file import read_part
 from .plan import Integers, Path, Plan, Positions
 from .sections import suggestion
+from .shop import find_shop, move_machine, write_program
 from .stages import Cancel, Progress, Stages
 from .verdict import judge
 
@@ -57,16 +58,19 @@ def plan(
 
     Raises InputError for a job that cannot be computed as it stands, Cancelled when cancelled. What the mathematics
     brings – a position without a second contact, a gouge – is a status in the result, never an exception."""
+    shop = find_shop(job)
     check_method(job)
     stages = Stages(on_progress, cancel, threads)
     scene = prepare(job, faces, stages)
     footprint = lay_out(job, scene, stages)
     positions, counters = place(job, scene, footprint, stages)
     path = link(job, scene, positions, stages)
+    joints = stages.run("machine", move_machine, job, shop, path)
+    program = stages.run("program", write_program, job, shop, joints, scene.model.bounds())
     positions, path = positions_in_part(positions, scene.frame), path_in_part(path, scene.frame)
-    verdict = judge(positions, path, np.zeros(len(path), dtype=bool), job.tolerance, guarantee_of(job))
-    facts = report.facts(job, positions, path, counters, stages.seconds, verdict)
-    return Plan(**vars(positions), job=job, path=path, joints=None, program=None, report=facts)
+    verdict = judge(positions, path, joints.troubles(), job.tolerance, guarantee_of(job))
+    facts = report.facts(job, positions, path, joints, program, counters, stages.seconds, verdict)
+    return Plan(**vars(positions), job=job, path=path, joints=joints, program=program, report=facts)
 
 
 def method_names() -> list[str]:
@@ -125,7 +129,9 @@ def lay_out(job: Job, scene: Scene, stages: Stages) -> Footprint:
         )
     keep = stages.run("footprint", _core.restrict_to_faces, scene.model, scene.tool, points, spec.margin_mm)
     if not keep.any():
-        raise job.error(FootprintSpec.table, "side_step_mm", "no position lies over the faces to machine")
+        raise job.error(
+            spec.table, "side_step_mm", "gives no position over the faces to machine; it must be smaller"
+        )
     return Footprint(points[keep], unbroken_runs(pass_index, keep))
 
 
@@ -188,6 +194,10 @@ def link(job: Job, scene: Scene, positions: Positions, stages: Stages) -> Path:
             options=options,
         )
     linked["kind"] = np.array(_core.MOVE_KINDS)[linked["kind"]]
+    if len(linked["kind"]) == 0:
+        raise job.error(
+            MethodSpec.table, "name", f"{job.method.name} found no usable position for this tool and part"
+        )
     return Path(**linked)
 
 

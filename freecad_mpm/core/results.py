@@ -18,6 +18,7 @@ def files(plan: Plan, stages: Stages) -> dict[str, bytes | str]:
         "cl.apt": to_apt(
             plan.path, job.post.program_name, job.tool.radius_mm, job.tool.minor_radius_mm, feeds
         ),
+        plan.program.file_name: plan.program.text,
         "report.json": report.to_json(plan.report),
         "report.txt": report.text(plan.report),
     }

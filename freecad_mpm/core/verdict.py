@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -48,18 +49,15 @@ def digging(path: Path, tolerance: Tolerance) -> Flags:
 
 
 def judge(
-    positions: Positions, path: Path, beyond_limits: Flags, tolerance: Tolerance, guarantee: str
+    positions: Positions, path: Path, machine_troubles: Sequence[str], tolerance: Tolerance, guarantee: str
 ) -> Verdict:
-    """beyond_limits: (M,), moves that the machine cannot make."""
+    """machine_troubles: one line for each kind of thing that the machine cannot do."""
     depth = tolerance.gouge_mm + tolerance.chord_mm
     counts = {
         f"positions cut in deeper than {tolerance.gouge_mm:g} mm": gouging(positions, tolerance),
         "positions are undecided": undecided(positions, tolerance, guarantee),
         f"cuts go deeper than {depth:g} mm between positions": digging(path, tolerance),
         "moves run into the part": path.blocked,
-        "moves leave the machine's limits": beyond_limits,
     }
     found = [f"{np.count_nonzero(which)} {what}" for what, which in counts.items() if which.any()]
-    if not positions.usable.any():
-        found.append("no position is usable")
-    return Verdict(guarantee, tuple(found))
+    return Verdict(guarantee, (*found, *machine_troubles))
