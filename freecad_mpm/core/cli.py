@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from collections.abc import Callable, Sequence
 from typing import NoReturn
@@ -10,8 +11,8 @@ from typing import NoReturn
 from .console import ProgressLine
 from .errors import Cancelled, InputError, one_line
 
-GOOD, NOT_GOOD, BAD_INPUT = 0, 1, 2
-INTERRUPTED = 130  # as shells report Ctrl-C
+BAD_INPUT = 2
+INTERRUPTED, BROKEN_PIPE = 130, 141  # as shells report Ctrl-C, and a reader that has gone
 
 Command = Callable[[argparse.Namespace, ProgressLine], int]
 
@@ -28,7 +29,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parsed = make_parser().parse_args(arguments)
     progress = ProgressLine()
     try:
-        return run(parsed, progress)
+        status = run(parsed, progress)
+        sys.stdout.flush()
+        return status
     except InputError as error:
         progress.clear()
         print(one_line(error), file=sys.stderr)
@@ -37,6 +40,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         progress.clear()
         print("stopped: nothing was written", file=sys.stderr)
         return INTERRUPTED
+    except BrokenPipeError:
+        os.dup2(
+            os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno()
+        )  # so that the last flush does not fail too
+        return BROKEN_PIPE
 
 
 def run(parsed: argparse.Namespace, progress: ProgressLine) -> int:

@@ -21,7 +21,7 @@ def plan(arguments: Namespace, progress: ProgressLine) -> int:
     computed = planning.plan(spec, on_progress=progress, threads=arguments.threads)
     files = results.files(computed, Stages(progress, threads=arguments.threads))
     progress.clear()
-    print(report.text(computed.report))
+    print(report.text(computed.report), end="")
     _write(arguments.out, files)
     return GOOD if computed.report["verdict"]["good"] else NOT_GOOD
 

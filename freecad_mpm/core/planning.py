@@ -69,7 +69,9 @@ def plan(
     program = stages.run("program", write_program, job, shop, joints, scene.model.bounds())
     positions, path = positions_in_part(positions, scene.frame), path_in_part(path, scene.frame)
     verdict = judge(positions, path, joints.troubles(), job.tolerance, guarantee_of(job))
-    facts = report.facts(job, positions, path, joints, program, counters, stages.seconds, verdict)
+    facts = report.facts(
+        job, shop.machine, positions, path, joints, program, counters, stages.seconds, verdict
+    )
     return Plan(**vars(positions), job=job, path=path, joints=joints, program=program, report=facts)
 
 
@@ -103,7 +105,8 @@ def check_method(job: Job) -> None:
 def prepare(job: Job, faces: Sequence[FaceArrays] | None, stages: Stages) -> Scene:
     """Read the part unless its faces are given, and build the native model and tool."""
     if faces is None:
-        faces = stages.run("read", read_part, job.part.file)
+        with blame(f"{job.source}: [{job.part.table}] file:"):
+            faces = stages.run("read", read_part, job.part.file, job.tolerance.chord_mm)
     machined, check = machined_and_check(job, faces)
     frame = frame_of(job.setup)
     with blame(f"{job.source}:"):

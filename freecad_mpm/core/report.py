@@ -11,6 +11,7 @@ import numpy as np
 
 from .job import Job
 from .machine_path import MachinePath
+from .machines import Machine
 from .plan import UNUSABLE, Path, Positions, ProgramFile
 from .verdict import Verdict, digging, gouging, undecided
 from .version import __version__
@@ -20,6 +21,7 @@ Facts = dict[str, Any]
 
 def facts(
     job: Job,
+    machine: Machine,
     positions: Positions,
     path: Path,
     joints: MachinePath,
@@ -32,7 +34,7 @@ def facts(
     return {
         "version": __version__,
         "verdict": {"good": verdict.good, "line": verdict.line, "troubles": list(verdict.troubles)},
-        "warnings": warnings(job, positions, verdict.guarantee),
+        "warnings": warnings(job, machine, positions, verdict.guarantee),
         "job": _job_facts(job),
         "positions": _position_facts(job, positions, verdict.guarantee),
         "worst_position": _worst_position(positions),
@@ -43,13 +45,17 @@ def facts(
     }
 
 
-def warnings(job: Job, positions: Positions, guarantee: str) -> list[str]:
+def warnings(job: Job, machine: Machine, positions: Positions, guarantee: str) -> list[str]:
     """What the reader must know although it does not make the plan bad."""
     found = []
     if guarantee == "sampled":
         found.append("clearances are sampled: no proof that nothing between the samples is cut")
     if not job.tool.shank and not job.tool.holder:
         found.append("the tool has no shank and no holder: only the flutes are kept clear of the part")
+    if machine.unconfirmed:
+        found.append(
+            f"machine {machine.name} is unconfirmed: compare its file with the machine before cutting"
+        )
     left_out = np.count_nonzero(~positions.usable)
     if left_out:
         found.append(f"{left_out} positions ({', '.join(UNUSABLE)}) are left out of the path")

@@ -54,7 +54,7 @@ class Section:
             if name not in names:
                 raise cls.error(name, f"unknown key{suggestion(name, names)}")
         for one in fields(cls):
-            if one.default is MISSING and one.name not in table:
+            if one.default is one.default_factory is MISSING and one.name not in table:
                 raise cls.error(one.name, "is missing")
         return cls(**table)
 
