@@ -3,15 +3,35 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from .. import _core
 from .errors import blame
 from .faces import FaceArrays, to_core
-from .frame import Frame
+from .frame import Frame, frame_of
 from .job import Job, Part, ToolSpec
 
 # So many names are listed one by one in a message; of more, the first and the last.
 LISTED_NAMES = 12
+
+
+@dataclass(frozen=True)
+class Scene:
+    """What the stages work on: the faces in the part's frame; model and tool in the set-up frame."""
+
+    frame: Frame
+    machined: Sequence[FaceArrays]
+    check: Sequence[FaceArrays]
+    model: _core.SurfaceModel
+    tool: _core.Tool
+
+
+def build_scene(job: Job, faces: Sequence[FaceArrays]) -> Scene:
+    """The scene of a job's part, whose `faces` are in the part's frame."""
+    machined, check = machined_and_check(job, faces)
+    frame = frame_of(job.setup)
+    with blame(f"{job.source}:"):
+        return Scene(frame, machined, check, surface_model(machined, check, frame), native_tool(job.tool))
 
 
 def machined_and_check(job: Job, faces: Sequence[FaceArrays]) -> tuple[list[FaceArrays], list[FaceArrays]]:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from .job import Job
 from .machine_path import MachinePath
+from .model import Scene
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -72,6 +73,7 @@ class Plan(Positions):
     """A computed job: its positions, the path over them, and what was made of it."""
 
     job: Job
+    scene: Scene
     path: Path
     joints: MachinePath  # set-up frame, with the moves the machine needs in between
     program: ProgramFile

@@ -11,13 +11,13 @@ from .. import _core
 from . import report
 from .errors import blame
 from .faces import FaceArrays
-from .frame import Array, Frame, frame_of
+from .frame import Frame
 from .job import Job, MethodSpec
-from .model import machined_and_check, native_tool, surface_model
+from .model import Scene, build_scene
 from .part_file import read_part
-from .plan import Integers, Path, Plan, Positions
+from .plan import Floats, Integers, Path, Plan, Positions
 from .sections import suggestion
-from .shop import find_shop, move_machine, write_program
+from .shop import find_shop, run_machine
 from .stages import Cancel, Progress, Stages
 from .verdict import judge
 
@@ -26,19 +26,10 @@ CUT_LENGTH_STEPS = 1.5
 
 
 @dataclass(frozen=True)
-class Scene:
-    """What the native stages work on, in the set-up frame."""
-
-    frame: Frame
-    model: _core.SurfaceModel
-    tool: _core.Tool
-
-
-@dataclass(frozen=True)
 class Footprint:
     """Where in plan the tool is to stand: `points` (N, 2) mm in the set-up frame, `pass_index` (N,) from 0."""
 
-    points: Array
+    points: Floats
     pass_index: Integers
 
 
@@ -65,14 +56,12 @@ def plan(
     footprint = lay_out(job, scene, stages)
     positions, counters = place(job, scene, footprint, stages)
     path = link(job, scene, positions, stages)
-    joints = stages.run("machine", move_machine, job, shop, path)
-    program = stages.run("program", write_program, job, shop, joints, scene.model.bounds())
+    made = run_machine(job, shop, path, scene.model.bounds(), stages)
     positions, path = positions_in_part(positions, scene.frame), path_in_part(path, scene.frame)
-    verdict = judge(positions, path, joints.troubles(), job.tolerance, guarantee_of(job))
-    facts = report.facts(
-        job, shop.machine, positions, path, joints, program, counters, stages.seconds, verdict
-    )
-    return Plan(**vars(positions), job=job, path=path, joints=joints, program=program, report=facts)
+    verdict = judge(positions, path, made.troubles, job.tolerance, guarantee_of(job))
+    facts = report.facts(job, shop.machine, positions, path, made, counters, stages.seconds, verdict)
+    parts = {"job": job, "scene": scene, "path": path, "joints": made.joints, "program": made.program}
+    return Plan(**vars(positions), **parts, report=facts)
 
 
 def method_names() -> list[str]:
@@ -107,11 +96,7 @@ def prepare(job: Job, faces: Sequence[FaceArrays] | None, stages: Stages) -> Sce
     if faces is None:
         with blame(f"{job.source}: [{job.part.table}] file:"):
             faces = stages.run("read", read_part, job.part.file, job.tolerance.chord_mm)
-    machined, check = machined_and_check(job, faces)
-    frame = frame_of(job.setup)
-    with blame(f"{job.source}:"):
-        model = stages.run("model", surface_model, machined, check, frame)
-        return Scene(frame, model, native_tool(job.tool))
+    return stages.run("model", build_scene, job, faces)
 
 
 def lay_out(job: Job, scene: Scene, stages: Stages) -> Footprint:

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from .job import Job
-from .machine_path import MachinePath
 from .machines import Machine
-from .plan import UNUSABLE, Path, Positions, ProgramFile
+from .plan import UNUSABLE, Path, Positions
+from .shop import Made
 from .verdict import Verdict, digging, gouging, undecided
 from .version import __version__
 
@@ -24,8 +24,7 @@ def facts(
     machine: Machine,
     positions: Positions,
     path: Path,
-    joints: MachinePath,
-    program: ProgramFile,
+    made: Made,
     counters: Mapping[str, int],
     seconds: Mapping[str, float],
     verdict: Verdict,
@@ -39,7 +38,7 @@ def facts(
         "positions": _position_facts(job, positions, verdict.guarantee),
         "worst_position": _worst_position(positions),
         "path": _path_facts(job, path),
-        "program": _program_facts(joints, program),
+        "program": _program_facts(made),
         "work": _work_facts(counters, len(positions)),
         "time": _time_facts(seconds, len(positions)),
     }
@@ -129,15 +128,13 @@ def _path_facts(job: Job, path: Path) -> Facts:
     }
 
 
-def _program_facts(joints: MachinePath, program: ProgramFile) -> Facts:
-    low, high = joints.angles_deg.min(axis=0), joints.angles_deg.max(axis=0)
+def _program_facts(made: Made) -> Facts:
     return {
-        "file": program.file_name,
-        "blocks": program.text.count("\n"),
-        "moves": len(joints),
-        "rotary_range_deg": [[float(a), float(b)] for a, b in zip(low, high)],
-        "moves_in_trouble": int(np.count_nonzero(joints.status != "ok")),
-        "moves_at_pole": int(np.count_nonzero(joints.at_pole)),
+        "file": made.program.file_name,
+        "lines": made.report.lines(),
+        **made.report.to_dict(),
+        "moves": len(made.joints),
+        "moves_beyond_machine": int(np.count_nonzero(made.joints.status != "ok")),
     }
 
 
@@ -166,7 +163,7 @@ def text(facts: Facts) -> str:
         _job_lines(facts["job"]),
         _position_lines(facts),
         _path_lines(facts["path"]),
-        _program_lines(facts),
+        facts["program"]["lines"],
         _time_lines(facts),
     ]
     return "\n\n".join("\n".join(block) for block in blocks if block) + "\n"
@@ -213,17 +210,6 @@ def _path_lines(path: Facts) -> list[str]:
             f"{path['cuts_too_deep']} cuts too deep, {path['blocked_moves']} moves blocked"
         )
     return lines
-
-
-def _program_lines(facts: Facts) -> list[str]:
-    program, job = facts["program"], facts["job"]
-    ranges = ", ".join(f"{low:.3f} to {high:.3f}" for low, high in program["rotary_range_deg"])
-    return [
-        f"Program: {program['file']} for {job['machine']} by post {job['post']}, {program['blocks']} blocks, "
-        f"{program['moves']} moves",
-        f"Rotary axes, from the part to the tool: {ranges} deg; {program['moves_in_trouble']} moves beyond the machine, "
-        f"{program['moves_at_pole']} at its pole",
-    ]
 
 
 def _time_lines(facts: Facts) -> list[str]:

@@ -6,13 +6,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import machines, posts
+from . import machines, posts, program_reader, program_report
 from .errors import blame
 from .job import Job, PostSpec
 from .machine_path import MachinePath, axis_tolerance_deg, machine_path
 from .machines import Machine
 from .plan import Floats, Names, Path, ProgramFile
 from .posts.program import PROGRAM_NAME, Program, ProgramTool, program_name
+from .program_check import check_program
+from .program_report import ProgramReport
+from .stages import Stages
 
 FILE_STEM = "program"
 
@@ -38,6 +41,32 @@ def find_shop(job: Job) -> Shop:
     return Shop(machine, post)
 
 
+@dataclass(frozen=True)
+class Made:
+    """What the shop made of a path. `joints` are in the set-up frame."""
+
+    joints: MachinePath
+    program: ProgramFile
+    report: ProgramReport
+
+    @property
+    def troubles(self) -> list[str]:
+        """One line for each kind of thing that the machine cannot do, or that is wrong with the program."""
+        findings = self.report.findings
+        found = [f"{len(findings)} findings of the program's checks, the first: {findings[0]}"] if findings else []
+        return self.joints.troubles() or found
+
+
+def run_machine(job: Job, shop: Shop, path: Path, box: tuple[Floats, Floats], stages: Stages) -> Made:
+    """Joints, program, and the program's text read back and checked; path and part's `box` in the set-up frame."""
+    joints = stages.run("machine", move_machine, job, shop, path)
+    program = describe(job, shop, joints, box)
+    with blame(f"{job.source}: [{job.post.table}]"):
+        text = stages.run("program", shop.post.write, program)
+    checked = stages.run("check", check_text, text, program, path)
+    return Made(joints, ProgramFile(FILE_STEM + shop.post.file_ending, text), checked)
+
+
 def move_machine(job: Job, shop: Shop, path: Path) -> MachinePath:
     """The machine's joints along a path in the set-up frame, with the moves that keep the chord tolerance."""
     return machine_path(
@@ -54,9 +83,9 @@ def _feeds(post: PostSpec, kind: Names) -> Floats:
     return np.where(np.isin(kind, ("cut", "link")), post.cut_feed_mm_per_min, post.plunge_feed_mm_per_min)
 
 
-def write_program(job: Job, shop: Shop, joints: MachinePath, box: tuple[Floats, Floats]) -> ProgramFile:
-    """The program; `box`: low and high corner of the part in the set-up frame."""
-    program = Program(
+def describe(job: Job, shop: Shop, joints: MachinePath, box: tuple[Floats, Floats]) -> Program:
+    """What the post writes from; `box`: low and high corner of the part in the set-up frame."""
+    return Program(
         name=job.post.program_name,
         machine=shop.machine,
         tool=ProgramTool(job.post.tool_number, job.tool.radius_mm, job.tool.minor_radius_mm),
@@ -64,5 +93,10 @@ def write_program(job: Job, shop: Shop, joints: MachinePath, box: tuple[Floats, 
         moves=joints,
         blank=box,
     )
-    with blame(f"{job.source}: [{job.post.table}]"):
-        return ProgramFile(FILE_STEM + shop.post.file_ending, shop.post.write(program))
+
+
+def check_text(text: str, program: Program, path: Path) -> ProgramReport:
+    """Read the program's text back as a control would, and compare its poses with the path's."""
+    parsed = program_reader.parse(text)
+    checks = check_program(parsed, program.machine, path.tip, path.axis)
+    return program_report.report(program, len(parsed.blocks), checks)
