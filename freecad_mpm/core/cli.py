@@ -1,0 +1,95 @@
+"""The command line `python3 -m freecad_mpm` (docs/command-line.md)."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Callable, Sequence
+from typing import NoReturn
+
+from .console import ProgressLine
+from .errors import Cancelled, InputError, one_line
+
+BAD_INPUT = 2
+INTERRUPTED, BROKEN_PIPE = 130, 141  # as shells report Ctrl-C, and a reader that has gone
+
+Command = Callable[[argparse.Namespace, ProgressLine], int]
+
+
+class Parser(argparse.ArgumentParser):
+    """Bad arguments get one line and status 2, like all bad input."""
+
+    def error(self, message: str) -> NoReturn:
+        self.exit(BAD_INPUT, f"{self.prog}: {one_line(message)}; see {self.prog} --help\n")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run one command and return its exit status; bad input is one line on stderr."""
+    parsed = make_parser().parse_args(arguments)
+    progress = ProgressLine()
+    try:
+        status = run(parsed, progress)
+        sys.stdout.flush()
+        return status
+    except InputError as error:
+        progress.clear()
+        print(one_line(error), file=sys.stderr)
+        return BAD_INPUT
+    except (KeyboardInterrupt, Cancelled):
+        progress.clear()
+        print("stopped: nothing was written", file=sys.stderr)
+        return INTERRUPTED
+    except BrokenPipeError:
+        os.dup2(
+            os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno()
+        )  # so that the last flush does not fail too
+        return BROKEN_PIPE
+
+
+def run(parsed: argparse.Namespace, progress: ProgressLine) -> int:
+    try:
+        from . import commands
+    except ImportError as error:
+        raise InputError(
+            f"the native modules cannot be loaded ({one_line(error)}): build them with ./dev build"
+        )
+    command: Command = getattr(commands, parsed.command)
+    return command(parsed, progress)
+
+
+def make_parser() -> Parser:
+    parser = Parser(prog="freecad_mpm", description="Multi-point five-axis machining with toroidal cutters.")
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=Parser)
+
+    plan = commands.add_parser("plan", help="compute a job: positions, path, program, report")
+    plan.add_argument("job", metavar="JOB.toml")
+    plan.add_argument("--out", metavar="DIR", required=True, help="folder for the results, made when missing")
+    _add_threads(plan)
+
+    info = commands.add_parser("info", help="list the faces of a part")
+    info.add_argument("file", metavar="FILE", help="STEP, IGES, BREP or Bézier text")
+
+    verify = commands.add_parser("verify", help="judge the poses of a CL file against a job's part and tool")
+    verify.add_argument("job", metavar="JOB.toml")
+    verify.add_argument("cl_file", metavar="cl.csv")
+    _add_threads(verify)
+
+    bench = commands.add_parser("bench", help="compare the methods and write bench.json")
+    bench.add_argument(
+        "--surfaces", nargs="+", metavar="NAME", help="shipped examples or job files; default: thesis"
+    )
+    bench.add_argument("--methods", nargs="+", metavar="NAME", help="default: all")
+    bench.add_argument("--out", metavar="DIR", default="out", help="folder for bench.json; default: out")
+    _add_threads(bench)
+    return parser
+
+
+def _add_threads(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--threads", metavar="N", type=_threads, default=0, help="0, the default: all cores")
+
+
+def _threads(text: str) -> int:
+    if not text.isdecimal():
+        raise argparse.ArgumentTypeError(f"must be a whole number from 0, got '{text}'")
+    return int(text)

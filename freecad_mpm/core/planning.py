@@ -1,0 +1,203 @@
+"""The façade: the stages of a plan in order, each one native call over arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from .. import _core
+from . import report
+from .errors import blame
+from .faces import FaceArrays
+from .frame import Frame
+from .job import Job, MethodSpec
+from .model import Scene, build_scene
+from .part_file import read_part
+from .plan import Floats, Integers, Path, Plan, Positions
+from .sections import suggestion
+from .shop import find_shop, run_machine
+from .stages import Cancel, Progress, Stages
+from .verdict import judge
+
+# A cut may join positions that are this many forward steps apart; the pattern itself leaves no wider ones in a pass.
+CUT_LENGTH_STEPS = 1.5
+
+
+@dataclass(frozen=True)
+class Footprint:
+    """Where in plan the tool is to stand: `points` (N, 2) mm in the set-up frame, `pass_index` (N,) from 0."""
+
+    points: Floats
+    pass_index: Integers
+
+
+def plan(
+    job: Job,
+    faces: Sequence[FaceArrays] | None = None,
+    on_progress: Progress | None = None,
+    cancel: Cancel | None = None,
+    threads: int = 0,
+) -> Plan:
+    """Compute a job: positions, path, program and report.
+
+    faces:       of the part, in its frame; default: read from `job.part.file`.
+    on_progress: called in this thread as on_progress(stage, fraction 0..1).
+    cancel:      a threading.Event or a function; when it is set or true the plan stops within 0.1 s.
+    threads:     for the native stages, 0: all cores. The result does not depend on it.
+
+    Raises InputError for a job that cannot be computed as it stands, Cancelled when cancelled. What the mathematics
+    brings – a position without a second contact, a gouge – is a status in the result, never an exception."""
+    shop = find_shop(job)
+    check_method(job)
+    stages = Stages(on_progress, cancel, threads)
+    scene = prepare(job, faces, stages)
+    footprint = lay_out(job, scene, stages)
+    positions, counters = place(job, scene, footprint, stages)
+    path = link(job, scene, positions, stages)
+    made = run_machine(job, shop, path, scene.model.bounds(), stages)
+    positions, path = positions_in_part(positions, scene.frame), path_in_part(path, scene.frame)
+    verdict = judge(positions, path, made.troubles, job.tolerance, guarantee_of(job))
+    facts = report.facts(job, shop.machine, positions, path, made, counters, stages.seconds, verdict)
+    parts = {"job": job, "scene": scene, "path": path, "joints": made.joints, "program": made.program}
+    return Plan(**vars(positions), **parts, report=facts)
+
+
+def method_names() -> list[str]:
+    """The methods of the core, in its order."""
+    return list(_core.METHODS)
+
+
+def guarantee_of(job: Job) -> str:
+    """What the job's method says of its clearances: "sampled" or "proven"."""
+    return str(_core.METHODS[job.method.name]["guarantee"])
+
+
+def check_method(job: Job) -> None:
+    """Raise InputError unless the core has the job's method and its options."""
+    method = job.method
+    if method.name not in _core.METHODS:
+        raise job.error(
+            MethodSpec.table,
+            "name",
+            f"unknown method '{method.name}'{suggestion(method.name, _core.METHODS)}",
+        )
+    known = _core.METHODS[method.name]["options"]
+    for name, value in method.options.items():
+        if name not in known:
+            raise job.error(MethodSpec.table, f"options.{name}", f"unknown option{suggestion(name, known)}")
+        if isinstance(value, bool) or not isinstance(value, (int, float)):
+            raise job.error(MethodSpec.table, f"options.{name}", f"must be a number, got {value!r}")
+
+
+def prepare(job: Job, faces: Sequence[FaceArrays] | None, stages: Stages) -> Scene:
+    """Read the part unless its faces are given, and build the native model and tool."""
+    if faces is None:
+        with blame(f"{job.source}: [{job.part.table}] file:"):
+            faces = stages.run("read", read_part, job.part.file, job.tolerance.chord_mm)
+    return stages.run("model", build_scene, job, faces)
+
+
+def lay_out(job: Job, scene: Scene, stages: Stages) -> Footprint:
+    """The footprint over the faces to machine; where a pass leaves them it ends and a new one begins."""
+    spec = job.footprint
+    low, high = scene.model.machined_bounds()
+    with blame(f"{job.source}: [{spec.table}]"):
+        points, pass_index = stages.run(
+            "footprint",
+            _core.raster,
+            low[:2],
+            high[:2],
+            direction_deg=spec.direction_deg,
+            side_step_mm=spec.side_step_mm,
+            forward_step_mm=spec.forward_step_mm,
+            margin_mm=spec.margin_mm,
+            zigzag=spec.zigzag,
+        )
+    keep = stages.run("footprint", _core.restrict_to_faces, scene.model, scene.tool, points, spec.margin_mm)
+    if not keep.any():
+        raise job.error(
+            spec.table, "side_step_mm", "gives no position over the faces to machine; it must be smaller"
+        )
+    return Footprint(points[keep], unbroken_runs(pass_index, keep))
+
+
+def unbroken_runs(pass_index: Integers, keep: np.ndarray) -> Integers:
+    """Numbers from 0 of the runs of kept points that no other point and no end of a pass interrupts."""
+    starts = keep.copy()
+    starts[1:] &= ~keep[:-1] | (pass_index[1:] != pass_index[:-1])
+    return np.cumsum(starts)[keep] - 1
+
+
+def place(job: Job, scene: Scene, footprint: Footprint, stages: Stages) -> tuple[Positions, dict[str, int]]:
+    """Positions in the set-up frame, judged by dense sampling, and the method's counters."""
+    method = job.method
+    with blame(f"{job.source}: [{method.table}]"):
+        placed = stages.run_native(
+            "positions",
+            _core.place,
+            method.name,
+            scene.model,
+            scene.tool,
+            footprint.points,
+            tilt_max_deg=method.tilt_max_deg,
+            spin_deg=method.spin_deg,
+            options=method.options,
+            judge=False,
+        )
+    counters = placed.pop("counters")
+    placed["status"] = np.array(_core.POSITION_STATUS)[placed["status"]]
+    positions = Positions(**placed, pass_index=footprint.pass_index)
+    usable = positions.usable
+    positions.clearance[usable, 1] = stages.run_native(
+        "judge",
+        _core.sampled_clearance,
+        scene.model,
+        scene.tool,
+        positions.tip[usable],
+        positions.axis[usable],
+    )
+    return positions, counters
+
+
+def link(job: Job, scene: Scene, positions: Positions, stages: Stages) -> Path:
+    """The path over the usable positions, in the set-up frame."""
+    spec = job.link
+    options = _core.LinkOptions(
+        safe_clearance_mm=spec.safe_clearance_mm,
+        approach_distance_mm=spec.approach_distance_mm,
+        cut_length_max_mm=CUT_LENGTH_STEPS * job.footprint.forward_step_mm,
+    )
+    with blame(f"{job.source}: [{spec.table}]"):
+        linked = stages.run_native(
+            "path",
+            _core.link_passes,
+            scene.model,
+            scene.tool,
+            positions.tip,
+            positions.axis,
+            positions.pass_index,
+            positions.usable,
+            options=options,
+        )
+    linked["kind"] = np.array(_core.MOVE_KINDS)[linked["kind"]]
+    if len(linked["kind"]) == 0:
+        raise job.error(
+            MethodSpec.table, "name", f"{job.method.name} found no usable position for this tool and part"
+        )
+    return Path(**linked)
+
+
+def positions_in_part(positions: Positions, frame: Frame) -> Positions:
+    return replace(
+        positions,
+        tip=frame.to_part(positions.tip),
+        axis=frame.direction_to_part(positions.axis),
+        contacts=frame.to_part(positions.contacts),
+        normals=frame.direction_to_part(positions.normals),
+    )
+
+
+def path_in_part(path: Path, frame: Frame) -> Path:
+    return replace(path, tip=frame.to_part(path.tip), axis=frame.direction_to_part(path.axis))

@@ -1,0 +1,222 @@
+"""The report: what was done and how good it is, as facts (report.json) and as text (report.txt)."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from .job import Job
+from .machines import Machine
+from .plan import UNUSABLE, Path, Positions
+from .shop import Made
+from .verdict import Verdict, digging, gouging, undecided
+from .version import __version__
+
+Facts = dict[str, Any]
+
+
+def facts(
+    job: Job,
+    machine: Machine,
+    positions: Positions,
+    path: Path,
+    made: Made,
+    counters: Mapping[str, int],
+    seconds: Mapping[str, float],
+    verdict: Verdict,
+) -> Facts:
+    """All figures of a plan as plain values, ready for JSON; positions and path in the part's frame."""
+    return {
+        "version": __version__,
+        "verdict": {"good": verdict.good, "line": verdict.line, "troubles": list(verdict.troubles)},
+        "warnings": warnings(job, machine, positions, verdict.guarantee),
+        "job": _job_facts(job),
+        "positions": _position_facts(job, positions, verdict.guarantee),
+        "worst_position": _worst_position(positions),
+        "path": _path_facts(job, path),
+        "program": _program_facts(made),
+        "work": _work_facts(counters, len(positions)),
+        "time": _time_facts(seconds, len(positions)),
+    }
+
+
+def warnings(job: Job, machine: Machine, positions: Positions, guarantee: str) -> list[str]:
+    """What the reader must know although it does not make the plan bad."""
+    found = []
+    if guarantee == "sampled":
+        found.append("clearances are sampled: no proof that nothing between the samples is cut")
+    if not job.tool.shank and not job.tool.holder:
+        found.append("the tool has no shank and no holder: only the flutes are kept clear of the part")
+    if machine.unconfirmed:
+        found.append(
+            f"machine {machine.name} is unconfirmed: compare its file with the machine before cutting"
+        )
+    left_out = np.count_nonzero(~positions.usable)
+    if left_out:
+        found.append(f"{left_out} positions ({', '.join(UNUSABLE)}) are left out of the path")
+    return found
+
+
+def _job_facts(job: Job) -> Facts:
+    method, footprint = job.method, job.footprint
+    return {
+        "source": job.source,
+        "part": job.part.file,
+        "faces": list(job.part.faces) or "all",
+        "tool": job.tool.describe(),
+        "footprint": {
+            "pattern": footprint.pattern,
+            "direction_deg": footprint.direction_deg,
+            "side_step_mm": footprint.side_step_mm,
+            "forward_step_mm": footprint.forward_step_mm,
+            "zigzag": footprint.zigzag,
+        },
+        "method": method.name,
+        "options": dict(method.options),
+        "tilt_max_deg": method.tilt_max_deg,
+        "spin_deg": method.spin_deg,
+        "gouge_tolerance_mm": job.tolerance.gouge_mm,
+        "chord_tolerance_mm": job.tolerance.chord_mm,
+        "machine": job.machine.name,
+        "post": job.post.name,
+    }
+
+
+def _position_facts(job: Job, positions: Positions, guarantee: str) -> Facts:
+    with_contact = np.isfinite(positions.contacts).all(axis=2)
+    return {
+        "count": len(positions),
+        "passes": len(np.unique(positions.pass_index)),
+        "statuses": dict(Counter(positions.status.tolist()).most_common()),
+        "with_first_contact": int(np.count_nonzero(with_contact[:, 0])),
+        "with_second_contact": int(np.count_nonzero(with_contact[:, 1])),
+        "gouging": int(np.count_nonzero(gouging(positions, job.tolerance))),
+        "undecided": int(np.count_nonzero(undecided(positions, job.tolerance, guarantee))),
+        "left_out": int(np.count_nonzero(~positions.usable)),
+        "guarantee": guarantee,
+    }
+
+
+def _worst_position(positions: Positions) -> Facts | None:
+    """The usable position with the least upper bound of its clearance; None when there is none."""
+    if not positions.usable.any():
+        return None
+    worst = int(np.argmin(np.where(positions.usable, positions.clearance[:, 1], np.inf)))
+    return {
+        "position": worst,
+        "pass": int(positions.pass_index[worst]),
+        "tip_mm": positions.tip[worst].tolist(),
+        "axis": positions.axis[worst].tolist(),
+        "clearance_mm": float(positions.clearance[worst, 1]),
+    }
+
+
+def _path_facts(job: Job, path: Path) -> Facts:
+    cuts = path.kind == "cut"
+    lengths = np.linalg.norm(np.diff(path.tip, axis=0, prepend=path.tip[:1]), axis=1)
+    return {
+        "moves": len(path),
+        "kinds": dict(Counter(path.kind.tolist()).most_common()),
+        "cut_length_mm": float(lengths[cuts].sum()),
+        "worst_cut_clearance_mm": float(path.clearance[cuts].min()) if cuts.any() else None,
+        "cuts_too_deep": int(np.count_nonzero(digging(path, job.tolerance))),
+        "blocked_moves": int(np.count_nonzero(path.blocked)),
+    }
+
+
+def _program_facts(made: Made) -> Facts:
+    return {
+        "file": made.program.file_name,
+        "lines": made.report.lines(),
+        **made.report.to_dict(),
+        "moves": len(made.joints),
+        "moves_beyond_machine": int(np.count_nonzero(made.joints.status != "ok")),
+    }
+
+
+def _work_facts(counters: Mapping[str, int], count: int) -> Facts:
+    return {**counters, **{f"{name}_per_position": value / count for name, value in counters.items()}}
+
+
+def _time_facts(seconds: Mapping[str, float], count: int) -> Facts:
+    return {
+        "stages_s": dict(seconds),
+        "total_s": sum(seconds.values()),
+        "positions_per_second": count / seconds["positions"],
+    }
+
+
+def to_json(facts: Facts) -> str:
+    """report.json; infinities, which JSON has not, would be our bug."""
+    return json.dumps(facts, indent=2, allow_nan=False) + "\n"
+
+
+def text(facts: Facts) -> str:
+    """report.txt: the same for people, the verdict first."""
+    blocks = [
+        [f"Verdict: {facts['verdict']['line']}"],
+        [f"Warning: {warning}" for warning in facts["warnings"]],
+        _job_lines(facts["job"]),
+        _position_lines(facts),
+        _path_lines(facts["path"]),
+        facts["program"]["lines"],
+        _time_lines(facts),
+    ]
+    return "\n\n".join("\n".join(block) for block in blocks if block) + "\n"
+
+
+def _job_lines(job: Facts) -> list[str]:
+    faces = job["faces"] if isinstance(job["faces"], str) else ", ".join(job["faces"])
+    footprint = job["footprint"]
+    order = "zigzag" if footprint["zigzag"] else "one way"
+    return [
+        f"Job:       {job['source']}",
+        f"Part:      {job['part']}, faces {faces}",
+        f"Tool:      {job['tool']}",
+        f"Footprint: {footprint['pattern']}, feed at {footprint['direction_deg']:g} deg, "
+        f"steps {footprint['side_step_mm']:g} mm aside, {footprint['forward_step_mm']:g} mm forward, {order}",
+        f"Method:    {job['method']}, spin {job['spin_deg']:g} deg, tilt up to {job['tilt_max_deg']:g} deg",
+        f"Tolerance: gouge {job['gouge_tolerance_mm']:g} mm, chord {job['chord_tolerance_mm']:g} mm",
+    ]
+
+
+def _position_lines(facts: Facts) -> list[str]:
+    positions, worst = facts["positions"], facts["worst_position"]
+    lines = [f"{positions['count']} positions in {positions['passes']} passes:"]
+    lines += [f"  {count:8d}  {status}" for status, count in positions["statuses"].items()]
+    lines.append(
+        f"Contacts: {positions['with_first_contact']} first, {positions['with_second_contact']} second; "
+        f"{positions['gouging']} gouging, {positions['undecided']} undecided"
+    )
+    if worst:
+        x, y, z = worst["tip_mm"]
+        lines.append(
+            f"Worst clearance: {worst['clearance_mm']:.6f} mm ({positions['guarantee']}) at position "
+            f"{worst['position']}, pass {worst['pass']}, tip {x:.3f} {y:.3f} {z:.3f}"
+        )
+    return lines
+
+
+def _path_lines(path: Facts) -> list[str]:
+    kinds = ", ".join(f"{count} {kind}" for kind, count in path["kinds"].items())
+    lines = [f"{path['moves']} moves ({kinds}), {path['cut_length_mm']:.1f} mm of cuts"]
+    if path["worst_cut_clearance_mm"] is not None:
+        lines.append(
+            f"Worst clearance of a cut between its positions: {path['worst_cut_clearance_mm']:.6f} mm (sampled); "
+            f"{path['cuts_too_deep']} cuts too deep, {path['blocked_moves']} moves blocked"
+        )
+    return lines
+
+
+def _time_lines(facts: Facts) -> list[str]:
+    time, work = facts["time"], facts["work"]
+    stages = ", ".join(f"{stage} {seconds:.2f} s" for stage, seconds in time["stages_s"].items())
+    return [
+        f"Time: {time['total_s']:.2f} s ({stages})",
+        f"{time['positions_per_second']:.0f} positions per second, "
+        f"{work['evaluations_per_position']:.0f} surface evaluations per position",
+    ]

@@ -1,0 +1,57 @@
+"""The files that a plan is handed over in."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path as FilePath
+
+from . import cl_file, machined, picture, report
+from .apt import to_apt
+from .plan import Path, Plan
+from .stages import Stages
+
+
+def files(plan: Plan, stages: Stages) -> dict[str, bytes | str]:
+    """File name -> content, everything ready to be written together."""
+    return {
+        "cl.csv": stages.run("cl.csv", cl_file.to_csv, plan, plan.path),
+        "cl.apt": stages.run("cl.apt", _apt, plan),
+        plan.program.file_name: plan.program.text,
+        "report.json": report.to_json(plan.report),
+        "report.txt": report.text(plan.report),
+        "machined.stl": _machined_stl(plan, stages),
+        "path.png": stages.run("path.png", _picture, plan),
+    }
+
+
+def _apt(plan: Plan) -> str:
+    post, tool = plan.job.post, plan.job.tool
+    feeds = dict.fromkeys(("cut", "link"), post.cut_feed_mm_per_min)
+    feeds |= dict.fromkeys(("plunge", "retract"), post.plunge_feed_mm_per_min)
+    return to_apt(plan.path, post.program_name, tool.radius_mm, tool.minor_radius_mm, feeds)
+
+
+def _machined_stl(plan: Plan, stages: Stages) -> bytes:
+    scene = plan.scene
+    surface = stages.run_native(
+        "machined.stl", machined.machine, scene.tool, _path_in_setup(plan), scene.model.bounds()
+    )
+    return machined.to_stl(surface, scene.frame.to_part)
+
+
+def _path_in_setup(plan: Plan) -> Path:
+    frame = plan.scene.frame
+    return replace(
+        plan.path, tip=frame.to_setup(plan.path.tip), axis=frame.direction_to_setup(plan.path.axis)
+    )
+
+
+def _picture(plan: Plan) -> bytes:
+    scene, job = plan.scene, plan.job
+    return picture.render(
+        plan,
+        [*scene.machined, *scene.check],
+        machined=[face.name for face in scene.machined],
+        gouge_mm=job.tolerance.gouge_mm,
+        title=f"{FilePath(job.part.file).name}, {job.method.name}: {len(plan)} positions",
+    )

@@ -1,0 +1,102 @@
+"""Machine and post of a job: from the path to the machine's joints and the program."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import machines, posts, program_reader, program_report
+from .errors import blame
+from .job import Job, PostSpec
+from .machine_path import MachinePath, axis_tolerance_deg, machine_path
+from .machines import Machine
+from .plan import Floats, Names, Path, ProgramFile
+from .posts.program import PROGRAM_NAME, Program, ProgramTool, program_name
+from .program_check import check_program
+from .program_report import ProgramReport
+from .stages import Stages
+
+FILE_STEM = "program"
+
+
+@dataclass(frozen=True)
+class Shop:
+    """The machine that is to run the job, and the post that writes for its control."""
+
+    machine: Machine
+    post: posts.Post
+
+
+def find_shop(job: Job) -> Shop:
+    """Raises InputError for a machine or post that there is not, and a program name that controls do not take."""
+    with blame(f"{job.source}: [{job.machine.table}] name:"):
+        machine = machines.load(job.machine.name)
+    with blame(f"{job.source}: [{job.post.table}] name:"):
+        post = posts.load(job.post.name)
+    name = job.post.program_name
+    if not PROGRAM_NAME.fullmatch(name):
+        right = f"must be {PROGRAM_NAME.pattern}, such as {program_name(name)}"
+        raise job.error(PostSpec.table, "program_name", f"{right}, got '{name}'")
+    return Shop(machine, post)
+
+
+@dataclass(frozen=True)
+class Made:
+    """What the shop made of a path. `joints` are in the set-up frame."""
+
+    joints: MachinePath
+    program: ProgramFile
+    report: ProgramReport
+
+    @property
+    def troubles(self) -> list[str]:
+        """One line for each kind of thing that the machine cannot do, or that is wrong with the program."""
+        findings = self.report.findings
+        found = [f"{len(findings)} findings of the program's checks, the first: {findings[0]}"] if findings else []
+        return self.joints.troubles() or found
+
+
+def run_machine(job: Job, shop: Shop, path: Path, box: tuple[Floats, Floats], stages: Stages) -> Made:
+    """Joints, program, and the program's text read back and checked; path and part's `box` in the set-up frame."""
+    joints = stages.run("machine", move_machine, job, shop, path)
+    program = describe(job, shop, joints, box)
+    with blame(f"{job.source}: [{job.post.table}]"):
+        text = stages.run("program", shop.post.write, program)
+    checked = stages.run("check", check_text, text, program, path)
+    return Made(joints, ProgramFile(FILE_STEM + shop.post.file_ending, text), checked)
+
+
+def move_machine(job: Job, shop: Shop, path: Path) -> MachinePath:
+    """The machine's joints along a path in the set-up frame, with the moves that keep the chord tolerance."""
+    return machine_path(
+        shop.machine,
+        path.kind,
+        path.tip,
+        path.axis,
+        _feeds(job.post, path.kind),
+        axis_tolerance_deg=axis_tolerance_deg(job.tolerance.chord_mm, job.tool.radius_mm),
+    )
+
+
+def _feeds(post: PostSpec, kind: Names) -> Floats:
+    return np.where(np.isin(kind, ("cut", "link")), post.cut_feed_mm_per_min, post.plunge_feed_mm_per_min)
+
+
+def describe(job: Job, shop: Shop, joints: MachinePath, box: tuple[Floats, Floats]) -> Program:
+    """What the post writes from; `box`: low and high corner of the part in the set-up frame."""
+    return Program(
+        name=job.post.program_name,
+        machine=shop.machine,
+        tool=ProgramTool(job.post.tool_number, job.tool.radius_mm, job.tool.minor_radius_mm),
+        spindle_rpm=job.post.spindle_rpm,
+        moves=joints,
+        blank=box,
+    )
+
+
+def check_text(text: str, program: Program, path: Path) -> ProgramReport:
+    """Read the program's text back as a control would, and compare its poses with the path's."""
+    parsed = program_reader.parse(text)
+    checks = check_program(parsed, program.machine, path.tip, path.axis)
+    return program_report.report(program, len(parsed.blocks), checks)

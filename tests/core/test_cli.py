@@ -1,0 +1,221 @@
+"""The command line as a user runs it: results, exit statuses, and one line for every bad input."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+RESULTS = {"cl.csv", "cl.apt", "program.I", "report.json", "report.txt", "machined.stl", "path.png"}
+
+
+def start(*arguments: object) -> subprocess.Popen[str]:
+    command = [sys.executable, "-m", "freecad_mpm", *map(str, arguments)]
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    return subprocess.Popen(
+        command, env=environment, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    )
+
+
+def run(*arguments: object) -> tuple[int, str, str]:
+    """Exit status, stdout, stderr."""
+    process = start(*arguments)
+    out, error = process.communicate(timeout=300)
+    return process.returncode, out, error
+
+
+def test_plan_writes_all_results_and_says_where(job_file: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    status, text, error = run("plan", job_file, "--out", out)
+    assert (status, error) == (0, "")
+    assert {path.name for path in out.iterdir()} == RESULTS
+    assert all(str(out / name) in text for name in RESULTS)
+    assert "sampled: no proof" in text
+    report = json.loads((out / "report.json").read_text())
+    assert report["positions"]["count"] == 28 and report["verdict"]["good"] is True
+    assert (out / "report.txt").read_text() in text
+
+
+def test_a_plan_with_gouges_is_written_and_has_status_1(job_file: Path, tmp_path: Path) -> None:
+    job_file.write_text(job_file.read_text().replace("chord_mm = 2.0", "chord_mm = 1e-6"))
+    status, text, error = run("plan", job_file, "--out", tmp_path / "out")
+    assert (status, error) == (1, "")
+    assert "NOT GOOD" in text and (tmp_path / "out" / "cl.csv").exists()
+
+
+def test_threads_do_not_change_the_results(job_file: Path, tmp_path: Path) -> None:
+    for threads in (1, 2):
+        assert run("plan", job_file, "--out", tmp_path / str(threads), "--threads", threads)[0] == 0
+    for name in sorted(RESULTS - {"report.json", "report.txt"}):  # these hold times
+        assert (tmp_path / "1" / name).read_bytes() == (tmp_path / "2" / name).read_bytes(), name
+
+
+def test_verify_agrees_with_plan_and_finds_a_spoilt_pose(job_file: Path, tmp_path: Path) -> None:
+    assert run("plan", job_file, "--out", tmp_path)[0] == 0
+    status, text, error = run("verify", job_file, tmp_path / "cl.csv")
+    assert (status, error) == (0, "")
+    lines = (tmp_path / "cl.csv").read_text().splitlines()
+    number, line = next((i, line) for i, line in enumerate(lines) if ",cut," in line)
+    cells = line.split(",")
+    cells[6] = str(float(cells[6]) - 1.0)  # tip_z
+    (tmp_path / "spoilt.csv").write_text("\n".join([*lines[:number], ",".join(cells), *lines[number + 1 :]]))
+    status, text, error = run("verify", job_file, tmp_path / "spoilt.csv")
+    assert (status, error) == (1, "")
+    assert "NOT GOOD" in text and f"line {number + 1} " in text
+
+
+def test_info_lists_the_faces(thesis_part: Callable[[str], Path]) -> None:
+    status, text, error = run("info", thesis_part("saddle"))
+    assert (status, error) == (0, "")
+    assert "Face1" in text and "150.000" in text
+
+
+def test_bench_prints_and_writes_rows(job_file: Path, tmp_path: Path) -> None:
+    status, text, error = run("bench", "--surfaces", job_file, "--methods", "vcrf", "--out", tmp_path)
+    assert (status, error) == (0, "")
+    rows = json.loads((tmp_path / "bench.json").read_text())["rows"]
+    wanted = {"method", "surface", "threads", "positions", "positions_per_second", "evaluations_per_position"}
+    assert rows and all(wanted <= set(row) for row in rows)
+    assert {(row["method"], row["surface"], row["positions"]) for row in rows} == {("vcrf", "job", 28)}
+    assert rows[0]["threads"] == 1 and rows[0]["positions_per_second"] > 0
+    assert rows[0]["evaluations_per_position"] > 1000
+    assert "vcrf" in text
+
+
+# What replaces what in a good job file, and what the one line must hold.
+BAD_JOBS = [
+    ('file = "', 'file = "/nowhere', "/nowhere"),
+    ('file = "', 'file = "job.toml" # "', "job.toml"),
+    ("[tool]", 'faces = ["Face7"]\n[tool]', "[part] faces: 'Face7': no such face"),
+    ("[tool]", 'faces = ["Edge1"]\n[tool]', "[part] faces: 'Edge1': no such face"),
+    ("[tool]", 'check_faces = ["Face1"]\n[tool]', "[part] check_faces: must not name a face to machine"),
+    (
+        "major_radius_mm = 6.7",
+        "major_radius_mm = -6.7",
+        "[tool] major_radius_mm: must be zero or a positive number",
+    ),
+    (
+        "minor_radius_mm = 6.0",
+        "minor_radius_mm = nan",
+        "[tool] minor_radius_mm: must be zero or a positive number",
+    ),
+    ("6.7\nminor_radius_mm = 6.0", "0\nminor_radius_mm = 0", "[tool] major_radius_mm: must not be 0"),
+    ("side_step_mm = 50.0", "side_step_mm = 0", "[footprint] side_step_mm: must be a positive number"),
+    ("side_step_mm = 50.0", "side_step_mm = -1", "[footprint] side_step_mm: must be a positive number"),
+    ("side_step_mm = 50.0", "side_step_mm = nan", "[footprint] side_step_mm: must be a positive number"),
+    ("side_step_mm = 50.0", "side_step_mm = 0.0001", "10000000 positions"),
+    ("side_step_mm = 50.0", "side_step_mm = 50\nmargin_mm = -75.1", "[footprint] margin_mm"),
+    ("[tool]", "[setup]\nz = [0, 0, 0]\n[tool]", "[setup] z: must be a direction that is not of length zero"),
+    ("[tool]", "[setup]\nx = [0, 0, 1]\n[tool]", "[setup] x: must not be parallel to z"),
+    ("[tool]", '[method]\nname = "vrcf"\n[tool]', "[method] name: unknown method 'vrcf'; did you mean vcrf?"),
+    ("[tool]", '[machine]\nname = "dmu80"\n[tool]', "[machine] name: machine 'dmu80': unknown"),
+    ("[tool]", '[post]\nname = "dmu80"\n[tool]', "[post] name: post 'dmu80': unknown"),
+    ("[tool]", '[post]\nprogram_name = "a b"\n[tool]', "[post] program_name: must be"),
+    ("side_step_mm", "sidestep_mm", "[footprint] sidestep_mm: unknown key; did you mean side_step_mm?"),
+    ("[footprint]", "[foot]", "[foot]: unknown table"),
+    ("[tool]", "[tool", "is not valid TOML"),
+]
+
+
+@pytest.mark.parametrize(("right", "wrong", "message"), BAD_JOBS)
+def test_bad_jobs_get_one_line_and_leave_the_folder_alone(
+    job_file: Path, tmp_path: Path, right: str, wrong: str, message: str
+) -> None:
+    text = job_file.read_text()
+    assert right in text
+    job_file.write_text(text.replace(right, wrong, 1))
+    out = tmp_path / "out"
+    out.mkdir()
+    (out / "cl.csv").write_text("old")
+    status, printed, error = run("plan", job_file, "--out", out)
+    assert (status, printed) == (2, "")
+    assert error.endswith("\n") and error.count("\n") == 1, error
+    assert message in error and "job.toml" in error
+    assert {path.name: path.read_text() for path in out.iterdir()} == {"cl.csv": "old"}
+
+
+def spoil(path: Path, content: bytes) -> Path:
+    path.write_bytes(content)
+    return path
+
+
+BAD_COMMANDS: dict[str, Callable[[Path, Path], tuple[list[object], str]]] = {
+    "no command": lambda job, folder: ([], "COMMAND"),
+    "unknown command": lambda job, folder: (["plann", job], "'plann'"),
+    "no job": lambda job, folder: (["plan", "--out", folder], "JOB.toml"),
+    "no out": lambda job, folder: (["plan", job], "--out"),
+    "missing job": lambda job, folder: (
+        ["plan", folder / "no.toml", "--out", folder],
+        "no.toml: cannot be read",
+    ),
+    "job is a folder": lambda job, folder: (["plan", folder, "--out", folder], f"{folder}: cannot be read"),
+    "job is binary": lambda job, folder: (
+        ["plan", spoil(folder / "b.toml", b"\xff\x00"), "--out", folder],
+        "b.toml: must be a TOML text",
+    ),
+    "out is a file": lambda job, folder: (["plan", job, "--out", job], "job.toml: must be a folder"),
+    "threads": lambda job, folder: (["plan", job, "--out", folder, "--threads", "-1"], "--threads"),
+    "info of nothing": lambda job, folder: (["info", folder / "no.step"], "no.step"),
+    "info of a folder": lambda job, folder: (["info", folder], str(folder)),
+    "info of garbage": lambda job, folder: (["info", spoil(folder / "bad.step", b"garbage")], "bad.step"),
+    "info of an empty file": lambda job, folder: (["info", spoil(folder / "bad.brep", b"")], "bad.brep"),
+    "verify nothing": lambda job, folder: (["verify", job, folder / "no.csv"], "no.csv: cannot be read"),
+    "verify garbage": lambda job, folder: (["verify", job, job], "job.toml:"),
+    "bench of nothing": lambda job, folder: (
+        ["bench", "--surfaces", "no", "--out", folder],
+        "--surfaces: 'no'",
+    ),
+    "bench by nothing": lambda job, folder: (
+        ["bench", "--surfaces", job, "--methods", "vrcf", "--out", folder],
+        "did you mean vcrf?",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", BAD_COMMANDS)
+def test_bad_commands_get_one_line(job_file: Path, tmp_path: Path, case: str) -> None:
+    arguments, message = BAD_COMMANDS[case](job_file, tmp_path)
+    before = sorted(tmp_path.rglob("*"))
+    status, printed, error = run(*arguments)
+    assert (status, printed) == (2, "")
+    assert error.endswith("\n") and error.count("\n") == 1, error
+    assert message in error
+    assert sorted(tmp_path.rglob("*")) == before
+
+
+def test_unreadable_files_are_named(job_file: Path, tmp_path: Path) -> None:
+    if os.geteuid() == 0:
+        pytest.skip("root reads everything")
+    job_file.chmod(0)
+    assert run("plan", job_file, "--out", tmp_path)[2] == f"{job_file}: cannot be read: Permission denied\n"
+
+
+def test_ctrl_c_stops_soon_and_writes_nothing(job_file: Path, tmp_path: Path) -> None:
+    fine = job_file.read_text().replace("side_step_mm = 50.0", "side_step_mm = 0.5")
+    job_file.write_text(fine.replace("forward_step_mm = 25.0", "forward_step_mm = 0.5"))
+    process = start("plan", job_file, "--out", tmp_path / "out")
+    time.sleep(2.0)
+    assert process.poll() is None
+    process.send_signal(signal.SIGINT)
+    sent = time.monotonic()
+    _, error = process.communicate(timeout=60)
+    assert time.monotonic() - sent < 2.0
+    assert (process.returncode, error) == (130, "stopped: nothing was written\n")
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_reader_that_goes_away_is_no_error(thesis_part: Callable[[str], Path]) -> None:
+    process = start("info", thesis_part("saddle"))
+    assert process.stdout
+    process.stdout.close()
+    assert process.stderr
+    assert process.stderr.read() == ""
+    assert process.wait(timeout=60) == 141
