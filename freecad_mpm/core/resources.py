@@ -1,0 +1,10 @@
+"""Where the shipped machines, tools and examples are."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+RESOURCES = Path(__file__).resolve().parents[2] / "resources"
+TOOLS = RESOURCES / "tools"
+MACHINES = RESOURCES / "machines"
+EXAMPLES = RESOURCES / "examples"
