@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..errors import InputError
 from .program import Floats, Moves, Program, ProgramTool
+
+Flags = NDArray[np.bool_]
 
 FILE_ENDING = ".I"
 
@@ -108,40 +112,44 @@ def _move_blocks(moves: Moves, letters: tuple[str, str], step: int, first: int) 
     """All moves at once: one format string and one list of numbers, as formatting them singly would take seconds.
 
     Columns are N, X, Y, Z, the two angles in the order of their letters, and F; angles and feed are written when they
-    change."""
+    change, and X, Y, Z are left out of a rapid that only turns."""
     order = np.argsort(letters)
     angles = _rounded(moves.angles_deg)[:, order]
     feeds = np.where(moves.is_rapid, 0.0, np.round(moves.feed_mm_per_min, 3))
     shown_angles, shown_feed = _changes(angles), _feed_changes(feeds)
+    tip = _rounded(moves.tip)
+    shown_tip = ~(moves.is_rapid & shown_angles & ~_changes(tip))
     numbers = (np.arange(len(moves)) + first) * step
-    values = np.column_stack((numbers, _rounded(moves.tip), angles, feeds))
+    values = np.column_stack((numbers, tip, angles, feeds))
     shown = np.ones(values.shape, dtype=bool)
-    shown[:, 4] = shown[:, 5] = shown_angles
+    shown[:, 1:4] = shown_tip[:, None]
+    shown[:, 4:6] = shown_angles[:, None]
     shown[:, 6] = shown_feed
     templates = _templates([letters[k] for k in order])
-    choice = moves.is_rapid * 4 + shown_angles * 2 + shown_feed * 1
+    choice = moves.is_rapid * 8 + shown_tip * 4 + shown_angles * 2 + shown_feed * 1
     lines = "\r\n".join([templates[k] for k in choice.tolist()])
     return lines % tuple(values[shown].tolist())
 
 
 def _templates(letters: list[str]) -> list[str]:
-    """Format of a move block by rapid * 4 + angles shown * 2 + feed shown."""
-    result = []
-    for code in ("G01", "G00"):
-        for angles in ("", f" {letters[0]}%+.9g {letters[1]}%+.9g"):
-            for feed in ("", " F%.8g"):
-                result.append(f"N%.0f {code} X%+.9g Y%+.9g Z%+.9g{angles}{feed} *")
-    return result
+    """Format of a move block by rapid * 8 + tip shown * 4 + angles shown * 2 + feed shown."""
+    choices = product(
+        ("G01", "G00"),
+        ("", " X%+.9g Y%+.9g Z%+.9g"),
+        ("", f" {letters[0]}%+.9g {letters[1]}%+.9g"),
+        ("", " F%.8g"),
+    )
+    return [f"N%.0f {code}{tip}{angles}{feed} *" for code, tip, angles, feed in choices]
 
 
-def _changes(angles: Floats) -> np.ndarray:
+def _changes(rows: Floats) -> Flags:
     """(M,): the row differs from the one before; the first is what the opening left."""
-    changed = np.zeros(len(angles), dtype=bool)
-    changed[1:] = np.any(angles[1:] != angles[:-1], axis=1)
+    changed = np.zeros(len(rows), dtype=bool)
+    changed[1:] = np.any(rows[1:] != rows[:-1], axis=1)
     return changed
 
 
-def _feed_changes(feeds: Floats) -> np.ndarray:
+def _feed_changes(feeds: Floats) -> Flags:
     """(M,): feed moves (feeds > 0) whose feed is not that of the last feed move."""
     changed = np.zeros(len(feeds), dtype=bool)
     at_feed = np.flatnonzero(feeds > 0)
@@ -152,7 +160,9 @@ def _feed_changes(feeds: Floats) -> np.ndarray:
 def _block_step(blocks: int, end_block: int) -> int:
     step = WIDE_STEP if blocks * WIDE_STEP < end_block else NARROW_STEP
     if blocks * step >= end_block:
-        raise InputError(f"program: {blocks} blocks do not fit below the end block N{end_block}; make it shorter")
+        raise InputError(
+            f"program: {blocks} blocks do not fit below the end block N{end_block}; make it shorter"
+        )
     return step
 
 

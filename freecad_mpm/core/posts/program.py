@@ -42,7 +42,9 @@ class Moves:
         _check_array("feed_mm_per_min", self.feed_mm_per_min[~self.is_rapid], (np.sum(~self.is_rapid),))
         slow = np.flatnonzero(~self.is_rapid & ~(self.feed_mm_per_min > 0))
         if len(slow):
-            raise InputError(f"feed_mm_per_min[{slow[0]}]: must be positive, got {self.feed_mm_per_min[slow[0]]}")
+            raise InputError(
+                f"feed_mm_per_min[{slow[0]}]: must be positive, got {self.feed_mm_per_min[slow[0]]}"
+            )
 
     def __len__(self) -> int:
         return len(self.kind)
