@@ -20,7 +20,7 @@ class Walk:
         self._axis = [tuple(d) for d in axis]
         self._tip_tolerance_mm, self._axis_tolerance_deg = tip_tolerance_mm, axis_tolerance_deg
         self.next = 0  # pose of the list that is expected
-        self.tip_error_mm = 0.0  # largest over the poses that were met
+        self.tip_error_mm = 0.0  # largest over the poses that belong
         self.axis_error_deg = 0.0
 
     def step(self, tip: Point, axis: Point, rapid: bool) -> str:
@@ -42,9 +42,12 @@ class Walk:
         off_tip, off_axis = math.dist(tip, self._tip[pose]), angle_deg(axis, self._axis[pose])
         if not (off_tip <= self._tip_tolerance_mm and off_axis <= self._axis_tolerance_deg):
             return False
+        self._note(off_tip, off_axis)
+        return True
+
+    def _note(self, off_tip: float, off_axis: float) -> None:
         self.tip_error_mm = max(self.tip_error_mm, off_tip)
         self.axis_error_deg = max(self.axis_error_deg, off_axis)
-        return True
 
     def _on_the_way(self, tip: Point, axis: Point, rapid: bool) -> bool:
         """Rapids may turn before or after they travel; feed moves do both evenly."""
@@ -56,7 +59,10 @@ class Walk:
             return False
         # turned / turn = travelled / way, as far as the two tolerances let them be told apart
         uneven = abs(travelled * turn - turned * way)
-        return rapid or uneven <= self._axis_tolerance_deg * way + self._tip_tolerance_mm * turn
+        if not rapid and uneven > self._axis_tolerance_deg * way + self._tip_tolerance_mm * turn:
+            return False
+        self._note(off_line, off_circle)
+        return True
 
     def _lost(self, tip: Point, axis: Point) -> str:
         missed = self.next
