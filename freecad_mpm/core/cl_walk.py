@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import Any
 
 Point = Sequence[float]
+Errors = tuple[float, float]  # mm of the tip, degrees of the axis
 
 
 class Walk:
@@ -20,34 +21,50 @@ class Walk:
         self._axis = [tuple(d) for d in axis]
         self._tip_tolerance_mm, self._axis_tolerance_deg = tip_tolerance_mm, axis_tolerance_deg
         self.next = 0  # pose of the list that is expected
-        self.tip_error_mm = 0.0  # largest over the poses that belong
-        self.axis_error_deg = 0.0
+        self._worst: Errors = (0.0, 0.0)
+        self._last: Errors = (0.0, 0.0)  # of the last pose of the list: a later block may still meet it better
+
+    @property
+    def tip_error_mm(self) -> float:
+        """Largest over the program's poses that belong."""
+        return max(self._worst[0], self._last[0])
+
+    @property
+    def axis_error_deg(self) -> float:
+        return max(self._worst[1], self._last[1])
 
     def step(self, tip: Point, axis: Point, rapid: bool) -> str:
         """The program's next pose: what is wrong with it, or an empty string."""
         if self._meets(self.next, tip, axis):
-            self.next += 1
-            return ""
-        if self.next == 0:
+            self._go_to(self.next, tip, axis)
+        elif self.next == 0:
             return "" if rapid else "a feed move before the first pose of the CL list"
-        if self.next == len(self._tip):
+        elif self._meets(self.next - 1, tip, axis):
+            self._last = min(self._last, self._errors(self.next - 1, tip, axis), key=self._in_tolerances)
+        elif self.next == len(self._tip):
             return "a move after the last pose of the CL list"
-        if self._on_the_way(tip, axis, rapid):
-            return ""
-        return self._lost(tip, axis)
+        elif not self._on_the_way(tip, axis, rapid):
+            return self._lost(tip, axis)
+        return ""
+
+    def _errors(self, pose: int, tip: Point, axis: Point) -> Errors:
+        return math.dist(tip, self._tip[pose]), angle_deg(axis, self._axis[pose])
+
+    def _in_tolerances(self, errors: Errors) -> float:
+        """The errors as a multiple of what is allowed; not a number when the tip is not known."""
+        in_tip, in_axis = errors[0] / self._tip_tolerance_mm, errors[1] / self._axis_tolerance_deg
+        return in_tip if math.isnan(in_tip) else max(in_tip, in_axis)
 
     def _meets(self, pose: int, tip: Point, axis: Point) -> bool:
-        if pose >= len(self._tip):
-            return False
-        off_tip, off_axis = math.dist(tip, self._tip[pose]), angle_deg(axis, self._axis[pose])
-        if not (off_tip <= self._tip_tolerance_mm and off_axis <= self._axis_tolerance_deg):
-            return False
-        self._note(off_tip, off_axis)
-        return True
+        return pose < len(self._tip) and self._in_tolerances(self._errors(pose, tip, axis)) <= 1.0
 
-    def _note(self, off_tip: float, off_axis: float) -> None:
-        self.tip_error_mm = max(self.tip_error_mm, off_tip)
-        self.axis_error_deg = max(self.axis_error_deg, off_axis)
+    def _go_to(self, pose: int, tip: Point, axis: Point) -> None:
+        self._note(self._last)
+        self._last = self._errors(pose, tip, axis)
+        self.next = pose + 1
+
+    def _note(self, errors: Errors) -> None:
+        self._worst = max(self._worst[0], errors[0]), max(self._worst[1], errors[1])
 
     def _on_the_way(self, tip: Point, axis: Point, rapid: bool) -> bool:
         """Rapids may turn before or after they travel; feed moves do both evenly."""
@@ -55,13 +72,13 @@ class Walk:
         way, turn = math.dist(self._tip[a], self._tip[b]), angle_deg(self._axis[a], self._axis[b])
         travelled, off_line = _along_line(self._tip[a], self._tip[b], tip)
         turned, off_circle = _along_circle(self._axis[a], self._axis[b], axis)
-        if off_line > self._tip_tolerance_mm or off_circle > self._axis_tolerance_deg:
+        if not self._in_tolerances((off_line, off_circle)) <= 1.0:
             return False
         # turned / turn = travelled / way, as far as the two tolerances let them be told apart
         uneven = abs(travelled * turn - turned * way)
         if not rapid and uneven > self._axis_tolerance_deg * way + self._tip_tolerance_mm * turn:
             return False
-        self._note(off_line, off_circle)
+        self._note((off_line, off_circle))
         return True
 
     def _lost(self, tip: Point, axis: Point) -> str:
@@ -69,9 +86,9 @@ class Walk:
         if self._meets(
             missed + 1, tip, axis
         ):  # go on from there, so that one bad block is not held against all
-            self.next += 2
+            self._go_to(missed + 1, tip, axis)
             return f"pose {missed} of the CL list was not met before this one"
-        off_tip, off_axis = math.dist(tip, self._tip[missed]), angle_deg(axis, self._axis[missed])
+        off_tip, off_axis = self._errors(missed, tip, axis)
         return (
             f"is not pose {missed} of the CL list nor on the way to it: "
             f"tip off by {off_tip:.4f} mm, axis by {off_axis:.4f} degrees"

@@ -9,56 +9,74 @@
 namespace mpm {
 namespace {
 
-// Each round at least doubles the pieces of a move that is not good yet, so this many reach kMaxPieces from
-// one.
-constexpr int kMaxRounds = 10;
+// Rounds of splitting: with each, a bad piece becomes half as long or shorter, down to 2^-20 of its move.
+constexpr int kMaxRounds = 20;
+// A bad piece is split in so many at most at a time: what it needs is only estimated.
+constexpr double kMaxSplit = 8;
 constexpr double kSamples[] = {0.25, 0.5, 0.75};
 
-// The path with move i in pieces[i] even pieces.
-RefinedPath split(const PosePath& path, const std::vector<std::uint32_t>& pieces) {
+// For each move the fractions, rising to 1, at which its pieces end.
+using Fractions = std::vector<std::vector<double>>;
+
+RefinedPath split(const PosePath& path, const Fractions& fractions) {
   RefinedPath result;
   PosePath& out = result.poses;
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    for (std::uint32_t k = 1; k <= pieces[i]; ++k) {
-      const double s = double(k) / pieces[i];
-      const bool last = k == pieces[i];
+  for (std::size_t i = 0; i < path.size(); ++i)
+    for (double s : fractions[i]) {
+      const bool last = s == 1.0;
       out.tip.push_back(last ? path.tip[i] : Vec3(path.tip[i - 1] + s * (path.tip[i] - path.tip[i - 1])));
       out.axis.push_back(last ? path.axis[i] : great_circle(path.axis[i - 1], path.axis[i], s));
       out.cutting.push_back(path.cutting[i]);
       result.source.push_back(std::uint32_t(i));
     }
-  }
   return result;
 }
 
-// How many times more pieces this piece's move needs: the deviation falls with their square, the step with
-// their number.
-double excess(const KinematicChain& chain, const RefineOptions& options, const Vec2& from, const Vec2& to) {
+// How many pieces this one should become: the deviation falls with their square, the step with their number.
+double pieces_needed(const KinematicChain& chain,
+                     const RefineOptions& options,
+                     const Vec2& from,
+                     const Vec2& to) {
   const double step = (to - from).cwiseAbs().maxCoeff();
-  return std::max(std::sqrt(axis_deviation(chain, from, to) / options.axis_tolerance),
-                  step / options.max_rotary_step);
+  const double needed = std::max(std::sqrt(axis_deviation(chain, from, to) / options.axis_tolerance),
+                                 step / options.max_rotary_step);
+  return std::min(std::ceil(needed), kMaxSplit);
 }
 
-// Raises the pieces of the moves that are not good yet; false when there are none.
-bool raise_pieces(const KinematicChain& chain,
-                  const RefineOptions& options,
-                  const RefinedPath& refined,
-                  std::vector<std::uint32_t>& pieces) {
-  std::vector<double> worst(pieces.size(), 0.0);
-  for (std::size_t j = 1; j < refined.poses.size(); ++j)
-    if (refined.poses.cutting[j]) {
-      double& of_move = worst[refined.source[j]];
-      of_move =
-          std::max(of_move, excess(chain, options, refined.joints.rotary[j - 1], refined.joints.rotary[j]));
-    }
-  bool raised = false;
-  for (std::size_t i = 1; i < pieces.size(); ++i) {
-    if (worst[i] <= 1.0 || pieces[i] == kMaxPieces) continue;
-    const double wanted = std::ceil(pieces[i] * std::max(worst[i], pieces[i] > 1 ? 2.0 : 1.0));
-    pieces[i] = std::uint32_t(std::min(wanted, double(kMaxPieces)));
-    raised = true;
+// The ends of the pieces of one move after another round; refined pose `first` is the end of its first piece.
+std::vector<double> split_further(const KinematicChain& chain,
+                                  const RefineOptions& options,
+                                  const RefinedPath& refined,
+                                  std::size_t first,
+                                  const std::vector<double>& ends) {
+  std::vector<double> result;
+  double start = 0.0;
+  for (std::size_t k = 0; k < ends.size(); ++k) {
+    const Vec2 &from = refined.joints.rotary[first + k - 1], &to = refined.joints.rotary[first + k];
+    const double pieces = pieces_needed(chain, options, from, to);
+    for (double n = 1; n < pieces; ++n) result.push_back(start + n / pieces * (ends[k] - start));
+    result.push_back(ends[k]);
+    start = ends[k];
   }
-  return raised;
+  return result.size() <= kMaxPieces ? result : ends;
+}
+
+// Splits the pieces that are not good yet; false when there are none, or none that may be split.
+bool split_bad_pieces(const KinematicChain& chain,
+                      const RefineOptions& options,
+                      const RefinedPath& refined,
+                      Fractions& fractions) {
+  bool any = false;
+  std::size_t first = 0;  // refined pose that ends the first piece of move i
+  for (std::size_t i = 0; i < fractions.size(); ++i) {
+    const std::size_t pieces = fractions[i].size();
+    if (i > 0 && refined.poses.cutting[first]) {
+      fractions[i] = split_further(chain, options, refined, first, fractions[i]);
+      any = any || fractions[i].size() > pieces;
+    }
+    first += pieces;
+  }
+  return any;
 }
 
 }  // namespace
@@ -74,12 +92,12 @@ double axis_deviation(const KinematicChain& chain, const Vec2& from, const Vec2&
 RefinedPath refine(const KinematicChain& chain, const PosePath& path, const RefineOptions& options) {
   require(options.axis_tolerance > 0, "axis_tolerance must be positive");
   require(options.max_rotary_step > 0, "max_rotary_step must be positive");
-  std::vector<std::uint32_t> pieces(path.size(), 1);
+  Fractions fractions(path.size(), {1.0});
   RefinedPath refined;
-  for (int round = 0; round < kMaxRounds; ++round) {
-    refined = split(path, pieces);
+  for (int round = 0; round <= kMaxRounds; ++round) {
+    refined = split(path, fractions);
     refined.joints = joint_path(chain, refined.poses, options.joints);
-    if (!raise_pieces(chain, options, refined, pieces)) break;
+    if (!split_bad_pieces(chain, options, refined, fractions)) break;
   }
   return refined;
 }

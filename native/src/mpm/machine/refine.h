@@ -23,11 +23,12 @@ struct RefinedPath {
   JointPath joints;
 };
 
-// Splits the cutting moves evenly until each piece keeps axis_tolerance and max_rotary_step: inserted tips
-// lie on the straight line, inserted axes on the great circle. All joints are chosen anew for the refined
-// path. The given poses are all kept, bit for bit, in their order. A move reaches at most kMaxPieces pieces
-// (a path through the pole turns by any amount in no distance).
-inline constexpr std::uint32_t kMaxPieces = 1024;
+// Splits the cutting moves, where they need it, until each piece keeps axis_tolerance and max_rotary_step:
+// inserted tips lie on the straight line, inserted axes on the great circle. All joints are chosen anew for
+// the refined path. The given poses are all kept, bit for bit, in their order. No move gets more than
+// kMaxPieces pieces; one that needs more (it goes through the pole itself, where the first axis has to turn
+// in no distance) ends with the tolerance not kept.
+inline constexpr std::size_t kMaxPieces = 4096;
 RefinedPath refine(const KinematicChain& chain, const PosePath& path, const RefineOptions& options);
 
 }  // namespace mpm
