@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .machines import Machine, RotaryAxis
-from .posts.program import Floats
+
+Floats = NDArray[np.float64]
 
 
 def tool_axes(machine: Machine, angles_deg: Floats) -> Floats:
@@ -28,7 +30,7 @@ def linear_readings(
     for k in (0, 1):
         if machine.rotary_axes[k].role == "table_rotary":
             on_table = _turned_about_line(machine.rotary_axes[k], angles_deg[:, k], on_table, back=True)
-    return on_table - at_tool
+    return np.asarray(on_table - at_tool)
 
 
 def solution_side(machine: Machine, angles_deg: Floats) -> Floats:
@@ -36,22 +38,26 @@ def solution_side(machine: Machine, angles_deg: Floats) -> Floats:
     first, second = (_unit(axis.rotation_vector) for axis in machine.rotary_axes)
     seconds = np.tile(second, (len(angles_deg), 1))
     carried = _turned(machine.rotary_axes[0], angles_deg[:, 0], seconds)
-    return np.einsum("ij,ij->i", tool_axes(machine, angles_deg), np.cross(first, carried))
+    return np.asarray(np.einsum("ij,ij->i", tool_axes(machine, angles_deg), np.cross(first, carried)))
 
 
 def pole_distance_deg(machine: Machine, axes: Floats) -> Floats:
     """Angle (N,) between the tool and the line of the first rotary axis."""
     first = _unit(machine.rotary_axes[0].rotation_vector)
-    return np.degrees(np.arctan2(np.linalg.norm(np.cross(axes, first), axis=1), np.abs(axes @ first)))
+    return np.asarray(
+        np.degrees(np.arctan2(np.linalg.norm(np.cross(axes, first), axis=1), np.abs(axes @ first)))
+    )
 
 
 def angles_between_deg(a: Floats, b: Floats) -> Floats:
     """Angles (N,) between the directions a (N, 3) and b (N, 3)."""
-    return np.degrees(np.arctan2(np.linalg.norm(np.cross(a, b), axis=1), np.einsum("ij,ij->i", a, b)))
+    return np.asarray(
+        np.degrees(np.arctan2(np.linalg.norm(np.cross(a, b), axis=1), np.einsum("ij,ij->i", a, b)))
+    )
 
 
 def _unit(vector: tuple[float, float, float]) -> Floats:
-    return np.array(vector) / np.linalg.norm(vector)
+    return np.asarray(np.array(vector) / np.linalg.norm(vector))
 
 
 def _turned(axis: RotaryAxis, readings_deg: Floats, vectors: Floats, back: bool = False) -> Floats:
@@ -59,8 +65,10 @@ def _turned(axis: RotaryAxis, readings_deg: Floats, vectors: Floats, back: bool 
     direction = _unit(axis.rotation_vector)
     angle = np.radians(axis.sense * (readings_deg - axis.zero_offset_deg))[:, None] * (-1 if back else 1)
     along = (vectors @ direction)[:, None] * direction
-    return along + np.cos(angle) * (vectors - along) + np.sin(angle) * np.cross(direction, vectors)
+    across = vectors - along
+    return np.asarray(along + np.cos(angle) * across + np.sin(angle) * np.cross(direction, vectors))
 
 
 def _turned_about_line(axis: RotaryAxis, readings_deg: Floats, points: Floats, back: bool = False) -> Floats:
-    return axis.joint_origin_mm + _turned(axis, readings_deg, points - np.array(axis.joint_origin_mm), back)
+    origin = np.array(axis.joint_origin_mm)
+    return np.asarray(origin + _turned(axis, readings_deg, points - origin, back))

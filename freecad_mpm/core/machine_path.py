@@ -138,4 +138,5 @@ def _redundant(angles_deg: Floats, tip: Floats, turns_first: Flags, travels_firs
     travel = np.any(np.diff(tip, axis=0) != 0, axis=1)
     before, after = np.append(False, turn), np.append(turn, False)
     travel_before, travel_after = np.append(False, travel), np.append(travel, False)
-    return (turns_first & ~(before & travel_after)) | (travels_first & ~(after & travel_before))
+    by_turn, by_travel = turns_first & ~(before & travel_after), travels_first & ~(after & travel_before)
+    return np.asarray(by_turn | by_travel)

@@ -143,13 +143,13 @@ def check_limits(
     motion = program.motion()
     angles = _angles(motion, machine)
     findings = []
-    for k, axis in enumerate(machine.rotary_axes):
-        unit = (axis.name, axis.min_limit_deg, axis.max_limit_deg, "degrees")
-        findings += _limit_findings(program, motion, np.arange(len(angles)), angles[:, k], unit)
+    for k, rotary in enumerate(machine.rotary_axes):
+        limits = (rotary.name, rotary.min_limit_deg, rotary.max_limit_deg, "degrees")
+        findings += _limit_findings(program, motion, np.arange(len(angles)), angles[:, k], limits)
     rows, readings = _sampled_readings(motion, machine, angles, part_origin_mm, tool_length_mm)
-    for k, axis in enumerate(machine.linear_axes):
-        unit = (axis.name, axis.min_limit_mm, axis.max_limit_mm, "mm")
-        findings += _limit_findings(program, motion, rows, readings[:, k], unit)
+    for k, linear in enumerate(machine.linear_axes):
+        limits = (linear.name, linear.min_limit_mm, linear.max_limit_mm, "mm")
+        findings += _limit_findings(program, motion, rows, readings[:, k], limits)
     return findings
 
 

@@ -47,7 +47,7 @@ class ProgramReport:
 
     def to_dict(self) -> dict[str, Any]:
         """Plain values for JSON, where infinite limits and unknown errors become None."""
-        return _plain(asdict(self))
+        return {name: _plain(value) for name, value in asdict(self).items()}
 
     def lines(self) -> list[str]:
         """The same as text."""
@@ -114,12 +114,12 @@ def move_seconds(machine: Machine, moves: Moves, linear_mm: Floats) -> Floats:
     for k, rotary in enumerate(machine.rotary_axes):
         change = np.abs(np.diff(moves.angles_deg[:, k], prepend=moves.angles_deg[:1, k]))
         minutes = np.maximum(minutes, change / rotary.max_velocity_deg_per_min)
-    return minutes * SECONDS_PER_MINUTE
+    return np.asarray(minutes * SECONDS_PER_MINUTE)
 
 
 def _steps(points: Floats) -> Floats:
     """Length of each move (M,); the first has no start."""
-    return np.linalg.norm(np.diff(points, axis=0, prepend=points[:1]), axis=1)
+    return np.asarray(np.linalg.norm(np.diff(points, axis=0, prepend=points[:1]), axis=1))
 
 
 def _by_kind(moves: Moves, values: Floats) -> dict[str, float]:

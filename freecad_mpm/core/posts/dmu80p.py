@@ -179,7 +179,7 @@ def _words(letters: str, values: Floats) -> str:
 
 
 def _word(letter: str, value: float) -> str:
-    return f"{letter}{_rounded(np.float64(value)):+.9g}"
+    return f"{letter}{_rounded(np.array(value)):+.9g}"
 
 
 def _rounded(values: Floats) -> Floats:

@@ -39,7 +39,9 @@ class Moves:
         unknown = sorted(set(self.kind.tolist()) - set(MOVE_KINDS))
         if unknown:
             raise InputError(f"kind: must be of {', '.join(MOVE_KINDS)}, got {', '.join(unknown)}")
-        _check_array("feed_mm_per_min", self.feed_mm_per_min[~self.is_rapid], (np.sum(~self.is_rapid),))
+        _check_array(
+            "feed_mm_per_min", self.feed_mm_per_min[~self.is_rapid], (int(np.count_nonzero(~self.is_rapid)),)
+        )
         slow = np.flatnonzero(~self.is_rapid & ~(self.feed_mm_per_min > 0))
         if len(slow):
             raise InputError(
@@ -51,7 +53,7 @@ class Moves:
 
     @property
     def is_rapid(self) -> NDArray[np.bool_]:
-        return self.kind == "rapid"
+        return np.asarray(self.kind == "rapid")
 
 
 @dataclass(frozen=True)
