@@ -1,0 +1,142 @@
+"""From a tool path to moves of the machine: joint values, finer blocks where needed, safe rapids."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .. import _core
+from .machines import Machine
+from .posts.program import Floats, Moves, Names
+
+Flags = NDArray[np.bool_]
+Integers = NDArray[np.int64]
+
+# Rotary readings this near are the same position: far under the 0.0001 degrees that controls resolve.
+SAME_ANGLE_DEG = 1e-9
+
+TROUBLE = {
+    "unreachable": "the rotary axes cannot give the tool's direction",
+    "rotary_limit": "a rotary axis leaves its limits",
+    "linear_limit": "a linear axis leaves its limits",
+    "forced_turn": "the cut needs a rewind or the other rotary solution",
+}
+
+
+@dataclass(frozen=True)
+class MachinePath(Moves):
+    """Moves with what the machine does in them. Rows that were inserted belong to the given move `source`."""
+
+    linear_mm: Floats  # (M, 3) readings of X, Y, Z: the spindle gauge point in the machine frame
+    source: Integers  # (M,) index of the given move that the move is part of
+    status: Names  # (M,) of _core.JOINT_STATUS
+    at_pole: Flags  # (M,) inside the machine's pole cone: the first rotary axis follows its neighbours
+
+    def troubles(self) -> list[str]:
+        """One line for each kind of trouble, with how many moves have it and the first given move that has."""
+        lines = []
+        for status, meaning in TROUBLE.items():
+            rows = np.flatnonzero(self.status == status)
+            if len(rows):
+                lines.append(f"{meaning}: {len(rows)} moves, the first in move {self.source[rows[0]]}")
+        return lines
+
+
+@dataclass(frozen=True)
+class _Rows:
+    """The given moves with each rapid in two: a turn with the tip held, and a travel with the angles held."""
+
+    tip: Floats
+    axis: Floats
+    source: Integers
+    turns_first: Flags  # first row of a rapid that turns, then travels
+    travels_first: Flags  # first row of a rapid that travels, then turns
+    held: Flags  # no change of the rotary solution in this row
+
+
+def axis_tolerance_deg(chord_mm: float, radius_mm: float) -> float:
+    """The error of the tool's direction that moves the rim of a cutter by no more than the chord tolerance."""
+    return float(np.degrees(chord_mm / radius_mm))
+
+
+def machine_path(
+    machine: Machine,
+    kind: Names,
+    tip: Floats,
+    axis: Floats,
+    feed_mm_per_min: Floats,
+    *,
+    axis_tolerance_deg: float,
+    part_origin_mm: tuple[float, float, float] | None = None,
+    tool_length_mm: float | None = None,
+) -> MachinePath:
+    """Joint values for a path of M moves (kind (M,), tip (M, 3) and axis (M, 3) in the set-up frame).
+
+    Feed moves are split until, with both rotary axes running evenly, the tool stays within `axis_tolerance_deg` of the
+    great circle between two given directions. Rapids never turn and travel in one block: the tool turns at the
+    higher end of the rapid with its tip held, where the path must be clear of the part; only there may the rotary
+    solution change. All given poses are kept, in order. Limits that cannot be kept are statuses, not errors.
+
+    part_origin_mm (of the set-up in the machine frame) and tool_length_mm: None takes the machine file's.
+    Raises ValueError naming the argument."""
+    setup = machine.setup
+    rows = _with_rapids_in_two(kind, tip, axis)
+    joints = _core.refine_path(
+        machine.chain(),
+        rows.tip,
+        rows.axis,
+        rows.held,
+        part_origin_mm=setup.part_origin_mm if part_origin_mm is None else part_origin_mm,
+        tool_length_mm=setup.tool_length_mm if tool_length_mm is None else tool_length_mm,
+        pole_cone_deg=machine.kinematics.pole_cone_deg,
+        axis_tolerance_deg=axis_tolerance_deg,
+        max_rotary_step_deg=machine.kinematics.max_rotary_step_deg,
+    )
+    row = joints["source"].astype(np.int64)
+    keep = ~_redundant(joints["rotary_deg"], joints["tip"], rows.turns_first[row], rows.travels_first[row])
+    source = rows.source[row[keep]]
+    return MachinePath(
+        kind=kind[source],
+        tip=joints["tip"][keep],
+        axis=joints["axis"][keep],
+        angles_deg=joints["rotary_deg"][keep],
+        feed_mm_per_min=feed_mm_per_min[source],
+        linear_mm=joints["linear_mm"][keep],
+        source=source,
+        status=np.array(_core.JOINT_STATUS)[joints["status"][keep]],
+        at_pole=joints["at_pole"][keep],
+    )
+
+
+def _with_rapids_in_two(kind: Names, tip: Floats, axis: Floats) -> _Rows:
+    in_two = kind == "rapid"
+    in_two[:1] = False
+    source = np.repeat(np.arange(len(kind)), np.where(in_two, 2, 1))
+    first = np.zeros(len(source), dtype=bool)
+    first[:-1] = source[:-1] == source[1:]
+    before = np.maximum(source - 1, 0)
+    falls = tip[before, 2] >= tip[source, 2]
+    turns_first, travels_first = first & falls, first & ~falls
+    # Held are feed moves and the travelling row: the second of a pair that turns first, the first of one that does not.
+    turning = turns_first | np.roll(travels_first, 1)
+    turning[:1] = True
+    return _Rows(
+        tip=tip[np.where(turns_first, before, source)],
+        axis=axis[np.where(travels_first, before, source)],
+        source=source,
+        turns_first=turns_first,
+        travels_first=travels_first,
+        held=~turning,
+    )
+
+
+def _redundant(angles_deg: Floats, tip: Floats, turns_first: Flags, travels_first: Flags) -> Flags:
+    """First rows of rapids that do not turn, or do not travel: their second row does it all."""
+    turn = np.abs(np.diff(angles_deg, axis=0)).max(axis=1, initial=0.0) > SAME_ANGLE_DEG
+    travel = np.any(np.diff(tip, axis=0) != 0, axis=1)
+    before, after = np.append(False, turn), np.append(turn, False)
+    travel_before, travel_after = np.append(False, travel), np.append(travel, False)
+    by_turn, by_travel = turns_first & ~(before & travel_after), travels_first & ~(after & travel_before)
+    return np.asarray(by_turn | by_travel)

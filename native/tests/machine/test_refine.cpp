@@ -1,0 +1,84 @@
+#include <gtest/gtest.h>
+
+#include "machine/chains.h"
+#include "mpm/machine/direction.h"
+#include "mpm/machine/refine.h"
+
+namespace mpm {
+namespace {
+
+using namespace mpm::testing;
+
+PosePath two_poses(const Vec3& from, const Vec3& to) {
+  return {{Vec3(0, 0, 0), Vec3(10, 0, 0)}, {from, to}, {0, 1}};
+}
+
+// Densely sampled, independently of the three samples that refine looks at.
+double dense_deviation(const KinematicChain& chain, const RefinedPath& refined) {
+  double worst = 0;
+  for (std::size_t i = 1; i < refined.poses.size(); ++i)
+    for (int k = 0; k <= 40; ++k) {
+      const double s = k / 40.0;
+      const Vec2 &a = refined.joints.rotary[i - 1], &b = refined.joints.rotary[i];
+      const Vec3 meant = great_circle(refined.poses.axis[i - 1], refined.poses.axis[i], s);
+      worst = std::max(worst, angle_between(tool_axis(chain, a + s * (b - a)), meant));
+    }
+  return worst;
+}
+
+TEST(Refine, DeviationOfAnOrthogonalMachineIsTheKnownOne) {
+  // (dC^2 / 8) sin(tilt) cos(tilt): 30 degrees, 10 degree turn -> 0.095 degrees
+  const KinematicChain chain = chain_of(table('C', Vec3::UnitZ()), head('B', Vec3::UnitY()));
+  EXPECT_NEAR(degrees(axis_deviation(chain, {0, radians(30)}, {radians(10), radians(30)})), 0.095, 0.001);
+}
+
+TEST(Refine, CutsKeepTheTolerance) {
+  for (double tolerance : {1e-3, 1e-5}) {
+    const RefineOptions options{{}, tolerance};
+    const RefinedPath refined =
+        refine(inclined_head(), two_poses(direction(0.4, 0.0), direction(0.5, 1.5)), options);
+    EXPECT_LE(dense_deviation(inclined_head(), refined), 1.05 * tolerance);
+    EXPECT_GT(refined.poses.size(), 4u);
+  }
+}
+
+TEST(Refine, GivenPosesAreKeptBitForBitAndPiecesKnowTheirMove) {
+  PosePath path = two_poses(direction(0.4, 0.0), direction(0.5, 1.5));
+  path.tip.push_back({20, 0, 0}), path.axis.push_back(direction(0.5, 1.5)), path.cutting.push_back(1);
+  const RefinedPath refined = refine(inclined_head(), path, {{}, 1e-4});
+  EXPECT_EQ(refined.poses.axis.front(), path.axis[0]);
+  EXPECT_EQ(refined.poses.axis[refined.poses.size() - 2], path.axis[1]);
+  EXPECT_EQ(refined.poses.tip.back(), path.tip[2]);
+  EXPECT_EQ(refined.source.front(), 0u);
+  EXPECT_EQ(refined.source[1], 1u);
+  EXPECT_EQ(refined.source.back(), 2u);  // no turn: not split
+}
+
+TEST(Refine, MovesThatDoNotCutAreLeftAlone) {
+  PosePath path = two_poses(direction(0.4, 0.0), direction(0.5, 1.5));
+  path.cutting[1] = 0;
+  EXPECT_EQ(refine(inclined_head(), path, {{}, 1e-6}).poses.size(), 2u);
+}
+
+TEST(Refine, LargestStepIsKept) {
+  const RefineOptions options{{}, 1.0, radians(5.0)};
+  const RefinedPath refined =
+      refine(inclined_head(), two_poses(direction(0.4, 0.0), direction(0.4, 1.5)), options);
+  for (std::size_t i = 1; i < refined.poses.size(); ++i)
+    EXPECT_LE((refined.joints.rotary[i] - refined.joints.rotary[i - 1]).cwiseAbs().maxCoeff(),
+              radians(5.0001));
+}
+
+TEST(Refine, PassingNearThePoleKeepsTheTolerance) {
+  const Vec3 from = Vec3(-0.1, 0.001, 1).normalized(), to = Vec3(0.1, 0.001, 1).normalized();
+  const RefinedPath refined = refine(inclined_head(), two_poses(from, to), {{}, 1e-4});
+  EXPECT_LE(dense_deviation(inclined_head(), refined), 1.2e-4);
+}
+
+TEST(Refine, TolerancesMustBePositive) {
+  EXPECT_THROW(refine(inclined_head(), {}, {}), std::invalid_argument);
+  EXPECT_THROW(refine(inclined_head(), {}, {{}, 1.0, 0.0}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace mpm
