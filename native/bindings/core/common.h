@@ -60,5 +60,7 @@ void bind_surface(py::module_& m);
 void bind_tool(py::module_& m);
 void bind_footprint(py::module_& m);
 void bind_positioning(py::module_& m);
+void bind_path(py::module_& m);
+void bind_removal(py::module_& m);
 
 }  // namespace mpm::bindings

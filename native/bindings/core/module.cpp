@@ -10,4 +10,6 @@ PYBIND11_MODULE(_core, m) {
   bind_tool(m);
   bind_footprint(m);
   bind_positioning(m);
+  bind_path(m);
+  bind_removal(m);
 }
