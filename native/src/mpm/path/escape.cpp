@@ -19,18 +19,21 @@ struct Sample {
 };
 
 // Clearance is 1-Lipschitz in a translation, so a clear tool may skip as far as it is clear.
+double next_step(double clearance, const EscapeOptions& options) {
+  const bool far = clearance >= kFarEnough * options.approach_distance;
+  return far ? std::max(options.check_step, clearance) : options.check_step;
+}
+
 std::vector<Sample> march(const ClearanceSampler& sampler,
                           const Tool& tool,
                           const TipPose& position,
                           const Vec3& direction,
                           double length,
                           const EscapeOptions& options) {
-  const double range = std::max(options.approach_distance, options.check_step);
   std::vector<Sample> samples;
-  for (double along = 0;;
-       along = std::min(along + std::max(options.check_step, samples.back().clearance), length)) {
+  for (double along = 0;; along = std::min(along + next_step(samples.back().clearance, options), length)) {
     const ToolPose pose = ToolPose::from_tip(tool, position.tip + along * direction, position.axis);
-    samples.push_back({along, sampler(pose, range).distance});
+    samples.push_back({along, sampler(pose, options.approach_distance).distance});
     if (along >= length) return samples;
   }
 }
@@ -39,7 +42,8 @@ std::vector<Sample> march(const ClearanceSampler& sampler,
 double plunge_length(const std::vector<Sample>& samples, double approach_distance) {
   double length = std::min(approach_distance, samples.back().along);
   for (std::size_t i = 0; i + 1 < samples.size(); ++i)
-    if (samples[i].clearance < kFarEnough * approach_distance) length = std::max(length, samples[i + 1].along);
+    if (samples[i].clearance < kFarEnough * approach_distance)
+      length = std::max(length, samples[i + 1].along);
   return length;
 }
 
