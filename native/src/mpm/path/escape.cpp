@@ -29,12 +29,13 @@ std::vector<Sample> march(const ClearanceSampler& sampler,
                           const TipPose& position,
                           const Vec3& direction,
                           double length,
-                          const EscapeOptions& options) {
+                          const EscapeOptions& options,
+                          const Context& context) {
   std::vector<Sample> samples;
   for (double along = 0;; along = std::min(along + next_step(samples.back().clearance, options), length)) {
     const ToolPose pose = ToolPose::from_tip(tool, position.tip + along * direction, position.axis);
     samples.push_back({along, sampler(pose, options.approach_distance).distance});
-    if (along >= length) return samples;
+    if (along >= length || context.cancelled()) return samples;
   }
 }
 
@@ -51,9 +52,10 @@ Escape try_direction(const ClearanceSampler& sampler,
                      const Tool& tool,
                      const TipPose& position,
                      const Vec3& direction,
-                     const EscapeOptions& options) {
+                     const EscapeOptions& options,
+                     const Context& context) {
   const double length = (options.safe_z - position.tip.z()) / direction.z();
-  const std::vector<Sample> samples = march(sampler, tool, position, direction, length, options);
+  const std::vector<Sample> samples = march(sampler, tool, position, direction, length, options, context);
   double least = options.approach_distance;
   for (const Sample& s : samples) least = std::min(least, s.clearance);
   const double allowed = std::min(samples.front().clearance, 0.0) - options.gouge;
@@ -65,13 +67,14 @@ Escape try_direction(const ClearanceSampler& sampler,
 Escape find_escape(const ClearanceSampler& sampler,
                    const Tool& tool,
                    const TipPose& position,
-                   const EscapeOptions& options) {
+                   const EscapeOptions& options,
+                   const Context& context) {
   Escape best{};
   bool first = true;
   for (const Vec3& way : {position.axis, Vec3(position.axis + Vec3::UnitZ()), Vec3(Vec3::UnitZ())}) {
     const Vec3 direction = way.normalized();
     if (direction.z() < std::cos(kSteepestWay)) continue;
-    const Escape escape = try_direction(sampler, tool, position, direction, options);
+    const Escape escape = try_direction(sampler, tool, position, direction, options, context);
     if (!escape.blocked) return escape;
     if (first || escape.clearance > best.clearance) best = escape;
     first = false;

@@ -1,6 +1,7 @@
 // A straight way between a position and the safe plane, up for a retract and down for an approach.
 #pragma once
 
+#include "mpm/base/context.h"
 #include "mpm/gouge/clearance_sampler.h"
 #include "mpm/path/pose_motion.h"
 
@@ -27,10 +28,12 @@ struct Escape {
 // The way out of `position` with its axis kept: along the axis if that is free, else between the axis and z,
 // else along z; when all are blocked, the one that cuts least (`blocked` says so). Clearances are sampled at
 // poses at most max(check_step, clearance) apart: between two of them the clearance falls by at most half of
-// check_step more. Requires position.axis.z > 0, position.tip.z < safe_z and check_step > 0.
+// check_step more. Requires position.axis.z > 0, position.tip.z < safe_z and check_step > 0. Once `context`
+// is cancelled the answer means nothing.
 Escape find_escape(const ClearanceSampler& sampler,
                    const Tool& tool,
                    const TipPose& position,
-                   const EscapeOptions& options);
+                   const EscapeOptions& options,
+                   const Context& context);
 
 }  // namespace mpm

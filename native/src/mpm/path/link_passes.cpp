@@ -69,7 +69,8 @@ class Linker {
   double cut_clearance(std::size_t i) const;
   void measure_cuts(Context& context);
   std::vector<Run> runs() const;
-  Escape escape(std::size_t i) const;
+  Escape escape(std::size_t i, const Context& context) const;
+  std::vector<Escape> escapes(const std::vector<Run>& runs, Context& context) const;
 
   void add(MoveKind kind,
            const TipPose& to,
@@ -80,6 +81,7 @@ class Linker {
   void add_traverse(const TipPose& from, const TipPose& to, std::size_t target);
   void add_approach(std::size_t i, const Escape& escape);
   void add_retract(std::size_t i, const Escape& escape);
+  void add_run(const Run& run, const Escape& in, const Escape& out);
 
   ClearanceSampler sampler_;
   const Tool& tool_;
@@ -150,9 +152,12 @@ std::vector<Run> Linker::runs() const {
   return result;
 }
 
-Escape Linker::escape(std::size_t i) const {
-  return find_escape(
-      sampler_, tool_, pose(i), {safe_z_, options_.approach_distance, options_.gouge, options_.check_step});
+Escape Linker::escape(std::size_t i, const Context& context) const {
+  return find_escape(sampler_,
+                     tool_,
+                     pose(i),
+                     {safe_z_, options_.approach_distance, options_.gouge, options_.check_step},
+                     context);
 }
 
 void Linker::add(
@@ -190,28 +195,34 @@ void Linker::add_retract(std::size_t i, const Escape& way) {
   add(MoveKind::retract, {way.top(at.tip), at.axis}, -1, i, way.clearance, way.blocked);
 }
 
+void Linker::add_run(const Run& run, const Escape& in, const Escape& out) {
+  const TipPose first = pose(run.first);
+  const TipPose top{in.top(first.tip), first.axis};
+  add_traverse(path_.size() == 0 ? top : TipPose{path_.tip.back(), path_.axis.back()}, top, run.first);
+  add_approach(run.first, in);
+  for (std::size_t i = run.first + 1; i <= run.last; ++i)
+    add(MoveKind::cut, pose(i), std::int64_t(i), i, along_cut_[i], false);
+  add_retract(run.last, out);
+}
+
+// Into and out of each run, in turn.
+std::vector<Escape> Linker::escapes(const std::vector<Run>& runs, Context& context) const {
+  std::vector<Escape> ways(2 * runs.size());
+  context.start(ways.size());
+  for_each_range(ways.size(), 1, context, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t w = begin; w < end; ++w)
+      ways[w] = escape(w % 2 == 0 ? runs[w / 2].first : runs[w / 2].last, context);
+  });
+  return ways;
+}
+
 ToolPath Linker::link(Context& context) {
   measure_cuts(context);
   if (context.cancelled()) return {};
   const std::vector<Run> all = runs();
-  std::vector<Escape> in(all.size()), out(all.size());
-  context.start(all.size());
-  for_each_range(all.size(), 1, context, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t r = begin; r < end; ++r) {
-      in[r] = escape(all[r].first);
-      out[r] = all[r].last == all[r].first ? in[r] : escape(all[r].last);
-    }
-  });
+  const std::vector<Escape> ways = escapes(all, context);
   if (context.cancelled()) return {};
-  for (std::size_t r = 0; r < all.size(); ++r) {
-    const TipPose start = pose(all[r].first);
-    const TipPose top{in[r].top(start.tip), start.axis};
-    add_traverse(r == 0 ? top : TipPose{path_.tip.back(), path_.axis.back()}, top, all[r].first);
-    add_approach(all[r].first, in[r]);
-    for (std::size_t i = all[r].first + 1; i <= all[r].last; ++i)
-      add(MoveKind::cut, pose(i), std::int64_t(i), i, along_cut_[i], false);
-    add_retract(all[r].last, out[r]);
-  }
+  for (std::size_t r = 0; r < all.size(); ++r) add_run(all[r], ways[2 * r], ways[2 * r + 1]);
   return std::move(path_);
 }
 
