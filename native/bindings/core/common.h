@@ -61,5 +61,7 @@ void bind_tool(py::module_& m);
 void bind_footprint(py::module_& m);
 void bind_positioning(py::module_& m);
 void bind_machine(py::module_& m);
+void bind_path(py::module_& m);
+void bind_removal(py::module_& m);
 
 }  // namespace mpm::bindings

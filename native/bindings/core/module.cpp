@@ -11,4 +11,6 @@ PYBIND11_MODULE(_core, m) {
   bind_footprint(m);
   bind_positioning(m);
   bind_machine(m);
+  bind_path(m);
+  bind_removal(m);
 }

@@ -1,0 +1,108 @@
+#include "common.h"
+#include "mpm/path/link_passes.h"
+
+namespace mpm::bindings {
+namespace {
+
+template <class To, class From>
+std::vector<To> to_scalars(const py::array_t<From, py::array::c_style | py::array::forcecast>& a,
+                           const char* name) {
+  require(a.ndim() == 1, std::string(name) + " must have shape (N,), got " + shape_of(a));
+  return {a.data(), a.data() + a.size()};
+}
+
+py::dict to_dict(const ToolPath& path) {
+  std::vector<std::uint8_t> kind;
+  for (MoveKind k : path.kind) kind.push_back(std::uint8_t(k));
+  py::dict result;
+  result["kind"] = from_scalars(kind);
+  result["tip"] = from_vectors(path.tip);
+  result["axis"] = from_vectors(path.axis);
+  result["position"] = from_scalars(path.position);
+  result["pass_index"] = from_scalars(path.pass);
+  result["clearance"] = from_scalars(path.clearance);
+  result["blocked"] = from_scalars(path.blocked).attr("astype")("bool");
+  return result;
+}
+
+py::dict link(const SurfaceModel& model,
+              const Tool& tool,
+              const DoubleArray& tip,
+              const DoubleArray& axis,
+              const py::array_t<std::int32_t, py::array::c_style | py::array::forcecast>& pass_index,
+              const py::array_t<bool, py::array::c_style | py::array::forcecast>& usable,
+              const LinkOptions& options,
+              Context& context) {
+  const PathPositions positions{to_vectors<Vec3>(tip, "tip"),
+                                to_vectors<Vec3>(axis, "axis"),
+                                to_scalars<std::int32_t>(pass_index, "pass_index"),
+                                to_scalars<std::uint8_t>(usable, "usable")};
+  ToolPath path;
+  {
+    py::gil_scoped_release release;
+    path = link_passes(model, tool, positions, options, context);
+  }
+  return to_dict(path);
+}
+
+LinkOptions make_options(double safe_clearance_mm,
+                         double approach_distance_mm,
+                         double gouge_mm,
+                         double cut_gouge_mm,
+                         double check_step_mm,
+                         double cut_length_max_mm,
+                         double cut_turn_max_deg,
+                         double rapid_turn_max_deg) {
+  return {safe_clearance_mm,
+          approach_distance_mm,
+          gouge_mm,
+          cut_gouge_mm,
+          check_step_mm,
+          cut_length_max_mm,
+          radians(cut_turn_max_deg),
+          radians(rapid_turn_max_deg)};
+}
+
+}  // namespace
+
+void bind_path(py::module_& m) {
+  py::list names;
+  for (const char* name : kMoveKindNames) names.append(name);
+  m.attr("MOVE_KINDS") = py::tuple(names);
+  py::class_<LinkOptions>(m, "LinkOptions", "Heights, distances and limits of the links between cuts.")
+      .def(py::init(&make_options),
+           py::kw_only(),
+           py::arg("safe_clearance_mm") = LinkOptions{}.safe_clearance,
+           py::arg("approach_distance_mm") = LinkOptions{}.approach_distance,
+           py::arg("gouge_mm") = LinkOptions{}.gouge,
+           py::arg("cut_gouge_mm") = LinkOptions{}.cut_gouge,
+           py::arg("check_step_mm") = LinkOptions{}.check_step,
+           py::arg("cut_length_max_mm") = LinkOptions{}.cut_length_max,
+           py::arg("cut_turn_max_deg") = degrees(LinkOptions{}.cut_turn_max),
+           py::arg("rapid_turn_max_deg") = degrees(LinkOptions{}.rapid_turn_max),
+           "safe_clearance: tool above everything on the safe plane; approach_distance: where rapids end; "
+           "gouge, "
+           "cut_gouge: how much deeper than its positions a link or a cut may go; check_step: between "
+           "checked poses; "
+           "cut_length_max, cut_turn_max: what one cut may join; rapid_turn_max: axis motion of one rapid.");
+  m.def("link_passes",
+        &link,
+        py::arg("model"),
+        py::arg("tool"),
+        py::arg("tip"),
+        py::arg("axis"),
+        py::arg("pass_index"),
+        py::arg("usable"),
+        py::kw_only(),
+        py::arg("options") = LinkOptions{},
+        py::arg("context"),
+        "Joins the usable positions (tip, axis (N, 3), pass_index, usable (N,); set-up frame) to a path: "
+        "cuts along the "
+        "passes, checked links over every gap. Dict of kind (M,) codes of MOVE_KINDS, tip, axis (M, 3), "
+        "position (M,) "
+        "index or -1, pass_index (M,), clearance (M,) mm, least sampled along the move, and blocked (M,): "
+        "True where no "
+        "free way was found.");
+}
+
+}  // namespace mpm::bindings
