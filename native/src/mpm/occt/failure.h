@@ -16,9 +16,8 @@ auto translating_failures(const std::string& what, const Work& work) {
   } catch (const std::invalid_argument& e) {
     throw std::invalid_argument(what + ": " + e.what());
   } catch (const Standard_Failure& e) {
-    const std::string why = e.GetMessageString();
-    throw std::invalid_argument(what + ": the geometry kernel failed (" +
-                                (why.empty() ? "no reason given" : why) + ")");
+    throw std::invalid_argument(what + ": the geometry kernel failed: " + e.DynamicType()->Name() + " " +
+                                e.GetMessageString());
   }
 }
 

@@ -102,6 +102,7 @@ void append_edge(const TopoDS_Edge& edge,
   double first = 0, last = 0;
   const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, face, first, last);
   require(!curve.IsNull(), "an edge has no curve on the surface");
+  require(first < last, "an edge has an empty range of parameters");
   Loop points;
   EdgeSampler(curve, surface, chord_mm).sample(first, last, points);
   if (edge.Orientation() == TopAbs_REVERSED) std::reverse(points.begin(), points.end());

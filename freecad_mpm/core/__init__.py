@@ -1,0 +1,1 @@
+"""Jobs, plans, programs and reports, without FreeCAD and without Qt."""
