@@ -1,7 +1,8 @@
 """Bicubic Bézier patches as text, the form in which Newell's teapot is handed down.
 
-The first line is the number of patches; one line for each follows with 16 vertex numbers, counted from one, row by
-row; then the number of vertices and one line `x,y,z` for each. Numbers may be parted by commas or blanks."""
+The first line is the number of patches; one line for each follows with 16 vertex numbers, counted from one,
+row by row; then the number of vertices and one line `x,y,z` for each. Numbers may be parted by commas or
+blanks."""
 
 from __future__ import annotations
 
@@ -57,7 +58,9 @@ class _Lines:
     def count(self, what: str) -> int:
         number = self.numbers(int, 1, f"number of {what}")[0]
         if not 1 <= number <= len(self._lines):
-            raise self._error(f"the number of {what} must be 1 or more, with as many lines after it, got {number}")
+            raise self._error(
+                f"the number of {what} must be 1 or more, with as many lines after it, got {number}"
+            )
         return number
 
     def numbers(self, kind: Callable[[str], Number], length: int, what: str) -> list[Number]:

@@ -16,13 +16,10 @@ class Cancelled(Exception):
 
 @contextmanager
 def blame(where: str) -> Iterator[None]:
-    """Turn a ValueError of the native core, which names only the argument, into an InputError that says whose it is.
-
-    `where` is put in front of the message, e.g. "job.toml: [footprint]"; an InputError passes unchanged."""
+    """Put `where`, e.g. "job.toml: [footprint]", in front of any ValueError and make it an InputError: the native core
+    names only the argument, and a part of the program only what it was given."""
     try:
         yield
-    except InputError:
-        raise
     except ValueError as error:
         raise InputError(f"{where} {one_line(error)}") from None
 

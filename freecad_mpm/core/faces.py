@@ -18,19 +18,20 @@ Array = NDArray[np.float64]
 class SetupFrame(Protocol):
     """What can carry points (..., 3) from the part frame into a set-up frame (core.frame.Frame)."""
 
-    def to_setup(self, points: Array) -> Array: ...
+    def to_setup(self, points: Array) -> Array:
+        ...
 
 
 @dataclass(frozen=True, eq=False)
 class FaceArrays:
-    """One face: a B-spline surface of degree 1 to 10 and the part of its parameter plane that belongs to the face.
+    """One face: a B-spline surface of degree 1 to 10 and the part of its parameter plane that belongs to it.
 
-    `poles` (nu, nv, 3) are in mm in the part frame, placement applied; `weights` (nu, nv) are positive, None for a
-    polynomial surface. `knots_u` (nu + degree_u + 1,) and `knots_v` have their multiplicities written out and need
-    not be clamped. `trim_loops` are closed polygons (N, 2) in (u, v) under the even-odd rule, the last point not
-    repeated; without one the whole rectangle of parameters belongs to the face. `kind` says what the surface was in
-    its file ("plane", "cylinder", "bspline", ...), and `deviation_mm` how far it may be from that (0: exact).
-    `reversed`: the material lies on the side of Su x Sv."""
+    `poles` (nu, nv, 3) are in mm in the part frame, placement applied; `weights` (nu, nv) are positive, None
+    for a polynomial surface. `knots_u` (nu + degree_u + 1,) and `knots_v` have their multiplicities written
+    out and need not be clamped. `trim_loops` are closed polygons (N, 2) in (u, v) under the even-odd rule,
+    the last point not repeated; without one the whole rectangle of parameters belongs to the face. `kind`
+    says what the surface was in its file ("plane", "cylinder", "bspline", ...), and `deviation_mm` how far it
+    may be from that (0: exact). `reversed`: the material lies on the side of Su x Sv."""
 
     name: str
     kind: str

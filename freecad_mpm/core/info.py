@@ -13,7 +13,7 @@ HEADINGS = ("face", "kind", "degree", "poles", "rational", "trim loops", "x mm",
 
 
 def info_lines(path: str | Path) -> list[str]:
-    """One line a face: name, kind, degrees, poles, rational, number of trim loops (0: untrimmed), box. Raises InputError."""
+    """A heading and one line a face; 0 trim loops: untrimmed. Raises InputError naming the file."""
     return _table([HEADINGS, *(_row(face) for face in read_part(path))])
 
 

@@ -16,19 +16,21 @@ DEFAULT_CHORD_MM = 0.01
 KERNEL_ENDINGS = (".step", ".stp", ".iges", ".igs", ".brep", ".brp")
 TEXT_ENDING = ".txt"
 
+Reader = Callable[[str, float], list[dict[str, Any]]]
+
 
 def read_part(path: str | Path, chord_mm: float = DEFAULT_CHORD_MM) -> list[FaceArrays]:
     """All faces of a part file in mm, named Face1, Face2, ... in the order in which FreeCAD numbers them.
 
-    The ending must be one of .step .stp .iges .igs .brep .brp, or .txt for Bézier patches (bezier_text). A BREP or
-    text file has no unit and is taken to be in mm. Raises InputError naming the file."""
+    The ending must be one of .step .stp .iges .igs .brep .brp, or .txt for Bézier patches (bezier_text). A
+    BREP or text file has no unit and is taken to be in mm. Raises InputError naming the file."""
     path = Path(path)
     ending = path.suffix.lower()
     if ending not in (*KERNEL_ENDINGS, TEXT_ENDING):
         known = " ".join((*KERNEL_ENDINGS, TEXT_ENDING))
         raise InputError(f"{path}: the ending of a part file must be one of {known}, got '{path.suffix}'")
     if not path.exists():
-        raise InputError(f"{path}: there is no such file; the part must be an existing STEP, IGES, BREP or text file")
+        raise InputError(f"{path}: there is no such file; the part must be a STEP, IGES, BREP or text file")
     if not path.is_file():
         raise InputError(f"{path}: is not a file; the part must be a STEP, IGES, BREP or text file")
     if ending == TEXT_ENDING:
@@ -37,7 +39,7 @@ def read_part(path: str | Path, chord_mm: float = DEFAULT_CHORD_MM) -> list[Face
 
 
 def read_brep_string(text: str, chord_mm: float = DEFAULT_CHORD_MM) -> list[FaceArrays]:
-    """All faces of a shape given as the text of a BREP file, as FreeCAD's Shape.exportBrepToString() returns it."""
+    """All faces of a shape given as BREP text (FreeCAD: Shape.exportBrepToString())."""
     return _from_kernel(_occt().read_brep_string, text, chord_mm)
 
 
@@ -49,7 +51,7 @@ def _occt() -> ModuleType:
     return _occt
 
 
-def _from_kernel(read: Callable[[str, float], list[dict[str, Any]]], source: str, chord_mm: float) -> list[FaceArrays]:
+def _from_kernel(read: Reader, source: str, chord_mm: float) -> list[FaceArrays]:
     try:
         return [FaceArrays(**face) for face in read(source, chord_mm)]
     except ValueError as error:

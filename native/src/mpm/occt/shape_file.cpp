@@ -4,15 +4,20 @@
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <BinTools.hxx>
+#include <IGESControl_Controller.hxx>
 #include <IGESControl_Reader.hxx>
 #include <Interface_Static.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <Message_Printer.hxx>
+#include <STEPControl_Controller.hxx>
 #include <STEPControl_Reader.hxx>
 #include <STEPControl_Writer.hxx>
+#include <StepBasic_Product.hxx>
+#include <StepData_StepModel.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <fstream>
+#include <iostream>
 #include <mutex>
 #include <sstream>
 
@@ -34,19 +39,23 @@ std::mutex& exchange_mutex() {
   return mutex;
 }
 
-// The readers report to the program's standard output; a library keeps quiet. Restores the messenger on
-// leaving.
-class QuietMessenger {
+// The readers report to the program's standard output, some through the messenger, some directly; a library
+// keeps quiet. Restores both on leaving. Used under exchange_mutex() only.
+class QuietOutput {
  public:
-  QuietMessenger() : printers_(Message::DefaultMessenger()->Printers()) {
+  QuietOutput() : printers_(Message::DefaultMessenger()->Printers()), buffer_(std::cout.rdbuf(nullptr)) {
     Message::DefaultMessenger()->ChangePrinters().Clear();
   }
-  ~QuietMessenger() { Message::DefaultMessenger()->ChangePrinters() = printers_; }
-  QuietMessenger(const QuietMessenger&) = delete;
-  QuietMessenger& operator=(const QuietMessenger&) = delete;
+  ~QuietOutput() {
+    Message::DefaultMessenger()->ChangePrinters() = printers_;
+    std::cout.rdbuf(buffer_);
+  }
+  QuietOutput(const QuietOutput&) = delete;
+  QuietOutput& operator=(const QuietOutput&) = delete;
 
  private:
   Message_SequenceOfPrinters printers_;
+  std::streambuf* buffer_;
 };
 
 std::string head_of(const std::string& path) {
@@ -69,14 +78,18 @@ Format format_of(const std::string& head) {
   return iges ? Format::iges : Format::unknown;
 }
 
-void use_millimetres() { Interface_Static::SetCVal("xstep.cascade.unit", "MM"); }
+// The settings exist only once the controllers do, and readers and writers look at them when they are made.
+void use_millimetres() {
+  STEPControl_Controller::Init();
+  IGESControl_Controller::Init();
+  Interface_Static::SetCVal("xstep.cascade.unit", "MM");
+  Interface_Static::SetCVal("write.step.unit", "MM");
+}
 
 template <class Reader>
 TopoDS_Shape read_exchange(const std::string& path) {
-  const std::lock_guard lock(exchange_mutex());
-  const QuietMessenger quiet;
+  use_millimetres();
   Reader reader;
-  use_millimetres();  // after the reader's constructor, which registers the setting
   require(reader.ReadFile(path.c_str()) == IFSelect_RetDone, "is damaged: it cannot be parsed");
   reader.TransferRoots();
   return reader.OneShape();
@@ -112,17 +125,30 @@ TopoDS_Shape read_any(const std::string& path) {
   throw std::invalid_argument("is not a STEP, IGES or BREP file");
 }
 
+// The library numbers the products that a process writes; all get the given name instead.
+void name_products(const StepData_StepModel& model, const Handle(TCollection_HAsciiString) & name) {
+  for (int i = 1; i <= model.NbEntities(); ++i)
+    if (const auto product = Handle(StepBasic_Product)::DownCast(model.Value(i)); !product.IsNull()) {
+      product->SetId(name);
+      product->SetName(name);
+    }
+}
+
 void name_and_date(const Handle(StepData_StepModel) & model, const std::string& name) {
+  const Handle(TCollection_HAsciiString) text = new TCollection_HAsciiString(name.c_str());
   APIHeaderSection_MakeHeader header(model);
-  header.SetName(new TCollection_HAsciiString(name.c_str()));
+  header.SetName(text);
   header.SetTimeStamp(new TCollection_HAsciiString(kFixedTime));
   header.Apply(model);
+  name_products(*model, text);
 }
 
 }  // namespace
 
 TopoDS_Shape read_shape(const std::string& path) {
   return translating_failures(path, [&] {
+    const std::lock_guard lock(exchange_mutex());
+    const QuietOutput quiet;
     const TopoDS_Shape shape = read_any(path);
     require(!shape.IsNull(), "holds no shape");
     return shape;
@@ -133,6 +159,8 @@ TopoDS_Shape read_brep_text(const std::string& text) {
   return translating_failures("BREP text", [&] {
     require(format_of(text.substr(0, kHeadLength)) == Format::brep,
             "does not start like the text of a BREP file");
+    const std::lock_guard lock(exchange_mutex());
+    const QuietOutput quiet;
     std::istringstream stream(text);
     TopoDS_Shape shape;
     BRepTools::Read(shape, stream, BRep_Builder());
@@ -144,10 +172,9 @@ TopoDS_Shape read_brep_text(const std::string& text) {
 void write_step(const TopoDS_Shape& shape, const std::string& path, const std::string& name) {
   translating_failures(path, [&] {
     const std::lock_guard lock(exchange_mutex());
-    const QuietMessenger quiet;
+    const QuietOutput quiet;
+    use_millimetres();
     STEPControl_Writer writer;
-    Interface_Static::SetCVal("write.step.unit", "MM");
-    Interface_Static::SetCVal("write.step.product.name", name.c_str());
     require(writer.Transfer(shape, STEPControl_AsIs) == IFSelect_RetDone,
             "the shape cannot be written as STEP");
     name_and_date(writer.Model(), name);
