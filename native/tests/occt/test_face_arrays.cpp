@@ -1,10 +1,10 @@
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
@@ -15,8 +15,10 @@
 #include <BRepPrimAPI_MakeTorus.hxx>
 #include <BRepTools.hxx>
 #include <BRepTopAdaptor_FClass2d.hxx>
+#include <Geom2d_Line.hxx>
 #include <GeomConvert.hxx>
 #include <Geom_BezierSurface.hxx>
+#include <Geom_CylindricalSurface.hxx>
 #include <Geom_OffsetSurface.hxx>
 #include <Precision.hxx>
 #include <TColgp_Array2OfPnt.hxx>
@@ -283,6 +285,16 @@ TEST(FaceArrays, SurfaceGoesThereAndBack) {
   const FaceArrays a = face_arrays(face_on(surface), "Face1", kChord_mm);
   const Handle(Geom_BSplineSurface) back = make_surface(a);
   EXPECT_LE(back->Value(0.3, 0.6).Distance(surface->Value(0.3, 0.6)), 1e-12);
+}
+
+// A circle round a cylinder is closed in space but only a line in its parameters: without a seam it bounds
+// nothing.
+TEST(FaceArrays, BoundaryThatEnclosesNothingIsRefused) {
+  const Handle(Geom_CylindricalSurface) cylinder = new Geom_CylindricalSurface(gp_Ax3(), 7);
+  const Handle(Geom2d_Line) level = new Geom2d_Line(gp_Pnt2d(0, 3), gp_Dir2d(1, 0));
+  TopoDS_Edge circle = BRepBuilderAPI_MakeEdge(level, cylinder, 0, 2 * kPi);
+  const TopoDS_Face face = BRepBuilderAPI_MakeFace(cylinder, BRepBuilderAPI_MakeWire(circle));
+  EXPECT_THROW(face_arrays(face, "Face1", kChord_mm), std::invalid_argument);
 }
 
 TEST(FaceArrays, ShapeWithoutFaceIsRefused) {

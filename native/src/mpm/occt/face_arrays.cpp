@@ -47,6 +47,7 @@ FaceArrays converted(const TopoDS_Face& face, const std::string& name, double ch
 }
 
 struct Knots {
+  explicit Knots(int count) : values(1, count), multiplicities(1, count) {}
   TColStd_Array1OfReal values;
   TColStd_Array1OfInteger multiplicities;
 };
@@ -58,7 +59,7 @@ Knots grouped(const std::vector<double>& flat_knots) {
     if (values.empty() || values.back() != k) values.push_back(k), counts.push_back(0);
     ++counts.back();
   }
-  Knots result{{1, int(values.size())}, {1, int(values.size())}};
+  Knots result(int(values.size()));
   for (int i = 1; i <= int(values.size()); ++i) {
     result.values(i) = values[i - 1];
     result.multiplicities(i) = counts[i - 1];

@@ -176,7 +176,8 @@ std::vector<std::vector<Vec2>> trim_loops(const TopoDS_Face& face,
     if (it.Value().ShapeType() != TopAbs_WIRE) continue;
     Loop loop = sample_wire(TopoDS::Wire(it.Value()), forward, surface, chord_mm);
     tidy(loop, domain);
-    if (loop.size() >= 3) loops.push_back(std::move(loop));
+    require(loop.size() >= 3, "a boundary encloses no area in the parameters of its surface");
+    loops.push_back(std::move(loop));
   }
   if (loops.size() == 1 && runs_round(loops.front(), domain.box)) loops.clear();
   return loops;
