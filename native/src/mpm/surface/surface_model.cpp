@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mpm/base/error.h"
+#include "mpm/surface/tight_bounds.h"
 
 namespace mpm {
 
@@ -24,7 +25,7 @@ SurfaceModel::SurfaceModel(std::vector<Face> faces) : faces_(std::move(faces)) {
 Box3 SurfaceModel::machined_bounds() const {
   Box3 box;
   for (const PatchRef& p : patches_)
-    if (!faces_[p.face].check) box.extend(p.patch->bounds());
+    if (!faces_[p.face].check) extend_by_face(box, *p.patch, faces_[p.face].trim);
   return box;
 }
 

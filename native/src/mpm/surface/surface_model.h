@@ -34,9 +34,10 @@ class SurfaceModel {
 
   const std::vector<Face>& faces() const { return faces_; }
   const std::vector<PatchRef>& patches() const { return patches_; }
-  const BoxTree& tree() const { return tree_; }  // over patches()
-  const Box3& bounds() const { return tree_.bounds(); }
-  Box3 machined_bounds() const;  // of the faces that are not check faces (control points)
+  const BoxTree& tree() const { return tree_; }          // over patches()
+  const Box3& bounds() const { return tree_.bounds(); }  // of all control points
+  // Of the faces that are not check faces, within their trim and tight (tight_bounds.h).
+  Box3 machined_bounds() const;
 
  private:
   std::vector<Face> faces_;

@@ -60,11 +60,35 @@ bool TrimRegion::contains(double u, double v) const {
   if (v < v_lo_ || v > v_hi_) return false;
   bool inside = false;
   for (const Edge& e : rows_[row(v)]) {
-    if ((e.a.y() > v) == (e.b.y() > v)) continue;  // half-open: a vertex counts once
+    if (e.a.y() == v && e.b.y() == v) {  // a level side never crosses the ray, but points on it are inside
+      if (std::min(e.a.x(), e.b.x()) <= u && u <= std::max(e.a.x(), e.b.x())) return true;
+      continue;
+    }
+    if ((e.a.y() > v) == (e.b.y() > v)) {  // half-open: a vertex counts once
+      if ((e.a.y() == v && e.a.x() == u) || (e.b.y() == v && e.b.x() == u)) return true;
+      continue;
+    }
     const double crossing = e.a.x() + (v - e.a.y()) / (e.b.y() - e.a.y()) * (e.b.x() - e.a.x());
+    if (u == crossing) return true;
     if (u < crossing) inside = !inside;
   }
   return inside;
+}
+
+// Liang and Barsky: the range of the side's parameter that each of the four half-planes leaves.
+std::optional<TrimRegion::Edge> TrimRegion::clipped(const Edge& edge, const ParamBox& box) {
+  const Vec2 d = edge.b - edge.a;
+  double enter = 0.0, leave = 1.0;
+  const auto keep = [&](double start, double slope, double lo, double hi) {
+    if (slope == 0.0) return lo <= start && start <= hi;
+    const double at_lo = (lo - start) / slope, at_hi = (hi - start) / slope;
+    enter = std::max(enter, std::min(at_lo, at_hi));
+    leave = std::min(leave, std::max(at_lo, at_hi));
+    return enter <= leave;
+  };
+  if (!keep(edge.a.x(), d.x(), box.u0, box.u1) || !keep(edge.a.y(), d.y(), box.v0, box.v1))
+    return std::nullopt;
+  return Edge{edge.a + enter * d, leave < 1.0 ? Vec2(edge.a + leave * d) : edge.b};
 }
 
 TrimRegion::Cover TrimRegion::cover(const ParamBox& box) const {

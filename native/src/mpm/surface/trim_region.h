@@ -1,6 +1,7 @@
 // The part of a face's parameter plane that belongs to the face.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "mpm/base/types.h"
@@ -16,6 +17,7 @@ class TrimRegion {
 
   bool everything() const { return loops_.empty(); }
   const std::vector<std::vector<Vec2>>& loops() const { return loops_; }
+  // Points on a polygon count as inside.
   bool contains(double u, double v) const;
 
   enum class Cover { outside, inside, crossing };
@@ -23,15 +25,29 @@ class TrimRegion {
   // boundary.
   Cover cover(const ParamBox& box) const;
 
+  // Calls visit(a, b) with the part of every side that lies in the closed rectangle; some may come twice.
+  template <class Visit>
+  void visit_sides(const ParamBox& box, const Visit& visit) const;
+
  private:
   struct Edge {
     Vec2 a, b;
   };
+  static std::optional<Edge> clipped(const Edge& edge, const ParamBox& box);
   std::size_t row(double v) const;
 
   std::vector<std::vector<Vec2>> loops_;
   double v_lo_ = 0, v_hi_ = 0;
   std::vector<std::vector<Edge>> rows_;  // the edges that meet each of equal strips in v
 };
+
+template <class Visit>
+void TrimRegion::visit_sides(const ParamBox& box, const Visit& visit) const {
+  if (everything() || box.v1 < v_lo_ || box.v0 > v_hi_) return;
+  const std::size_t last = row(box.v1);
+  for (std::size_t r = row(box.v0); r <= last; ++r)
+    for (const Edge& e : rows_[r])
+      if (const std::optional<Edge> part = clipped(e, box)) visit(part->a, part->b);
+}
 
 }  // namespace mpm
