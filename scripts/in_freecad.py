@@ -1,8 +1,8 @@
 """`python3 -m MODULE ARGUMENT ...` inside FreeCAD's command line: run as `freecadcmd scripts/in_freecad.py`.
 
-FreeCAD takes no arguments for a script, so MODULE and its arguments come one a line in MPM_IN_FREECAD. FreeCAD would also
-run a script that raises a second time and return 0 in the end; this one therefore ends the process itself, with the
-module's exit status, or 1 when it raises.
+FreeCAD takes no arguments for a script, so MODULE and its arguments come, one a line, in MPM_IN_FREECAD. It
+would also run a script that raises a second time and return 0 in the end; this one therefore ends the process
+itself, with the status of the module, or 1 when it raises.
 """
 
 import os
