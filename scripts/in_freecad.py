@@ -2,7 +2,7 @@
 
 FreeCAD takes no arguments for a script, so MODULE and its arguments come, one a line, in MPM_IN_FREECAD. It
 would also run a script that raises a second time and return 0 in the end; this one therefore ends the process
-itself, with the status of the module, or 1 when it raises.
+itself, with the status of the module, or CRASHED when it raises.
 """
 
 import os
@@ -10,6 +10,7 @@ import runpy
 import sys
 import traceback
 
+CRASHED = 70  # as sysexits.h has it: an internal error, not an answer of the module
 
 def run_module(words: list[str]) -> int:
     """Runs the module words[0] as a program with the arguments words[1:]; returns its exit status."""
@@ -22,7 +23,7 @@ def run_module(words: list[str]) -> int:
         return end.code if isinstance(end.code, int) else int(end.code is not None)
     except BaseException:
         traceback.print_exc()
-        return 1
+        return CRASHED
     return 0
 
 
