@@ -12,6 +12,7 @@ import traceback
 
 CRASHED = 70  # as sysexits.h has it: an internal error, not an answer of the module
 
+
 def run_module(words: list[str]) -> int:
     """Runs the module words[0] as a program with the arguments words[1:]; returns its exit status."""
     sys.argv = list(words)
