@@ -20,7 +20,10 @@ using DoubleArray = py::array_t<double, py::array::c_style | py::array::forcecas
 
 inline std::string shape_of(const py::array& a) {
   std::string s = "(";
-  for (py::ssize_t i = 0; i < a.ndim(); ++i) s += (i ? ", " : "") + std::to_string(a.shape(i));
+  for (py::ssize_t i = 0; i < a.ndim(); ++i) {
+    if (i > 0) s += ", ";
+    s += std::to_string(a.shape(i));
+  }
   return s + ")";
 }
 

@@ -19,15 +19,14 @@ BSplineSurface make_surface(int degree_u,
         "weights must have shape (nu, nv) like the poles, got " + shape_of(*weights));
     w.assign(weights->data(), weights->data() + weights->size());
   }
-  std::vector<double> ku = to_doubles(knots_u, "knots_u"), kv = to_doubles(knots_v, "knots_v");
+  const std::vector<double> ku = to_doubles(knots_u, "knots_u"), kv = to_doubles(knots_v, "knots_v");
   require(py::ssize_t(ku.size()) == poles.shape(0) + degree_u + 1,
           "knots_u must have nu + degree_u + 1 = " + std::to_string(poles.shape(0) + degree_u + 1) +
               " entries, got " + std::to_string(ku.size()));
   require(py::ssize_t(kv.size()) == poles.shape(1) + degree_v + 1,
           "knots_v must have nv + degree_v + 1 = " + std::to_string(poles.shape(1) + degree_v + 1) +
               " entries, got " + std::to_string(kv.size()));
-  return BSplineSurface(
-      degree_u, degree_v, std::move(ku), std::move(kv), to_vectors<Vec3>(poles, "poles"), w);
+  return BSplineSurface(degree_u, degree_v, ku, kv, to_vectors<Vec3>(poles, "poles"), w);
 }
 
 py::array_t<double> evaluate(const BSplineSurface& surface, const DoubleArray& u, const DoubleArray& v) {

@@ -18,8 +18,11 @@ std::size_t stations(double width, double step) {
   return std::size_t(std::max(steps, 0.0)) + 1;
 }
 
-// cos and sin of multiples of 90 degrees without the 6e-17 that pi's rounding leaves.
-double without_dust(double x) { return std::abs(x) < 1e-15 ? 0.0 : x; }
+// What pi's rounding leaves of cos and sin where they should be zero stays below this.
+constexpr double kDust = 1e-15;
+
+// cos and sin of multiples of 90 degrees come out exactly.
+double without_dust(double x) { return std::abs(x) < kDust ? 0.0 : x; }
 
 double station(std::size_t i, double width, double step) { return std::min(double(i) * step, width); }
 

@@ -80,8 +80,8 @@ std::size_t interval(const std::vector<double>& breaks, double t) {
 
 BSplineSurface::BSplineSurface(int degree_u,
                                int degree_v,
-                               std::vector<double> knots_u,
-                               std::vector<double> knots_v,
+                               const std::vector<double>& knots_u,
+                               const std::vector<double>& knots_v,
                                const std::vector<Vec3>& poles,
                                const std::vector<double>& weights)
     : degree_u_(degree_u), degree_v_(degree_v) {

@@ -15,8 +15,8 @@ class BSplineSurface {
   // wrong.
   BSplineSurface(int degree_u,
                  int degree_v,
-                 std::vector<double> knots_u,
-                 std::vector<double> knots_v,
+                 const std::vector<double>& knots_u,
+                 const std::vector<double>& knots_v,
                  const std::vector<Vec3>& poles,
                  const std::vector<double>& weights = {});
 

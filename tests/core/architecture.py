@@ -1,0 +1,238 @@
+"""The rules of docs/architecture.md, each a function from a checkout to the list of its violations.
+
+A violation is one line: file, what is wrong. The functions read text only; nothing is imported or built.
+"""
+
+import ast
+import re
+import sys
+from pathlib import Path
+
+Violations = list[str]
+
+CPP_ENDINGS = {".h", ".cpp"}
+INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
+COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
+LITERAL = re.compile(r'"(?:\\.|[^"\\\n])*"' + r"|'(?:\\.|[^'\\\n])'")
+SMALL_NUMBER = re.compile(r"(?<![\w.])\d[\d']*\.?\d*[eE]-\d+")
+# A member of an options structure with its default: named by the member, so allowed in headers.
+MEMBER_DEFAULT = re.compile(r"^\s*double\s+\w+\s*=[^()]*$")
+# Taking a stream's buffer away, to keep a library quiet, is not printing.
+PRINTS_OR_ENDS = re.compile(
+    r"\bstd::(?:cout|cerr|clog|terminate|quick_exit)\b(?!\.rdbuf)"
+    r"|(?<!\.)\b(?:printf|fprintf|puts|abort|assert|_?exit)\s*\("
+)
+
+
+def cpp_files(folder: Path) -> list[Path]:
+    return sorted(path for path in folder.rglob("*") if path.suffix in CPP_ENDINGS)
+
+
+def code_only(text: str) -> str:
+    """The C++ text without comments and what its literals say."""
+    return COMMENT.sub("", LITERAL.sub('""', text))
+
+
+# ---------------------------------------------------------------------------------------- layer table
+
+
+def table_rows(text: str, width: int) -> list[list[str]]:
+    """The body rows with `width` cells of all Markdown tables in the text."""
+    rows = [
+        [cell.strip() for cell in line.strip("|").split("|")] for line in text.splitlines() if line[:1] == "|"
+    ]
+    return [row for row in rows if len(row) == width and not set(row[0]) <= set("- :")]
+
+
+def native_layers(document: str) -> dict[str, set[str]]:
+    """Module -> modules it may include, from the table `layer | native module | charter | may use`."""
+    rows = [row for row in table_rows(document, 4) if row[1].startswith("`")]
+    layer = {row[1].strip("`"): row[0] for row in rows}
+    return {row[1].strip("`"): allowed_modules(row[3], layer) for row in rows}
+
+
+def allowed_modules(cell: str, layer: dict[str, str]) -> set[str]:
+    """`–` nothing; `base, path` those modules; `0–2` all modules of these layers."""
+    allowed: set[str] = set()
+    for word in (word.strip() for word in cell.split(",") if word.strip() != "–"):
+        if span := re.fullmatch(r"(\d)–(\d)", word):
+            allowed |= {name for name, at in layer.items() if at.isdigit() and span[1] <= at <= span[2]}
+        elif word in layer:
+            allowed.add(word)
+        else:
+            raise ValueError(f'docs/architecture.md: "{word}" is neither a module nor a range of layers')
+    return allowed
+
+
+def layers_of(root: Path) -> dict[str, set[str]]:
+    return native_layers((root / "docs/architecture.md").read_text())
+
+
+def native_includes_follow_the_table(root: Path) -> Violations:
+    allowed = layers_of(root)
+    found = []
+    for path in cpp_files(root / "native/src/mpm"):
+        module = path.relative_to(root / "native/src/mpm").parts[0]
+        if module not in allowed:
+            found.append(f"{path}: module {module} is not in the layer table")
+            continue
+        for name in INCLUDE.findall(path.read_text()):
+            used = name.split("/")[1] if name.startswith("mpm/") else module
+            if used != module and used not in allowed[module]:
+                found.append(f"{path}: {module} must not include {name}")
+    return found
+
+
+def judge_is_independent(root: Path) -> Violations:
+    """The table itself never lets `gouge` reach `positioning`, directly or through another module."""
+    allowed = layers_of(root)
+    reached, waiting = set(), ["gouge"]
+    while waiting:
+        module = waiting.pop()
+        reached.add(module)
+        waiting += allowed[module] - reached
+    return ["docs/architecture.md: gouge may reach positioning"] if "positioning" in reached else []
+
+
+# ---------------------------------------------------------------------------------------- C++ text
+
+
+def foreign_includes(root: Path, pattern: str, homes: tuple[str, ...]) -> Violations:
+    """Includes that match the pattern outside the homes (files or folders below native/)."""
+    native = root / "native"
+    return [
+        f"{path}: includes {name}, which belongs in {' or '.join(homes)}"
+        for path in cpp_files(native)
+        for name in INCLUDE.findall(path.read_text())
+        if re.search(pattern, name) and not path.relative_to(native).as_posix().startswith(homes)
+    ]
+
+
+def tbb_has_one_door(root: Path) -> Violations:
+    return foreign_includes(root, r"^(tbb|oneapi)/", ("src/mpm/base/parallel.cpp",))
+
+
+def opencascade_stays_in_occt(root: Path) -> Violations:
+    return foreign_includes(root, r"\.hxx$", ("src/mpm/occt/", "bindings/occt/", "tests/occt/"))
+
+
+def core_neither_prints_nor_aborts(root: Path) -> Violations:
+    return [
+        f"{path}: {match.group()}"
+        for path in cpp_files(root / "native/src")
+        for match in PRINTS_OR_ENDS.finditer(code_only(path.read_text()))
+    ]
+
+
+def small_numbers_have_names(root: Path) -> Violations:
+    """A literal like 1e-9 stands only in a constexpr definition, or as a member's default in a header."""
+    found = []
+    for path in cpp_files(root / "native/src"):
+        for statement in re.split(r"[;{}]", code_only(path.read_text())):
+            named = "constexpr" in statement or (path.suffix == ".h" and MEMBER_DEFAULT.match(statement))
+            found += [] if named else [f"{path}: bare {number}" for number in SMALL_NUMBER.findall(statement)]
+    return found
+
+
+# ---------------------------------------------------------------------------------------- Python imports
+
+# What the words of the table "package | charter | may import" stand for, besides `x` for freecad_mpm.x.
+OUTSIDE_PACKAGES = {
+    "numpy": {"numpy"},
+    "matplotlib": {"matplotlib", "mpl_toolkits"},
+    "FreeCAD": {"FreeCAD", "Part", "Path", "PathScripts", "Import", "Mesh"},
+    "FreeCADGui": {"FreeCADGui", "PathGui", "PartGui"},
+    "Qt": {"PySide", "PySide2", "PySide6"},
+    "Coin": {"pivy"},
+}
+
+
+def python_layers(document: str) -> dict[str, set[str]]:
+    """Package below freecad_mpm -> names of the packages it may import, itself among them."""
+    rows = [row for row in table_rows(document, 3) if row[0].startswith("`freecad_mpm.")]
+    layers = {}
+    for row in rows:
+        for package in re.findall(r"`freecad_mpm\.(\w+)`", row[0]):
+            words = [word.strip(" `") for word in row[2].split(",") if word.strip() != "–"]
+            named = [OUTSIDE_PACKAGES.get(word, {f"freecad_mpm.{word}"}) for word in words]
+            layers[package] = {f"freecad_mpm.{package}"}.union(*named)
+    return layers
+
+
+def module_name(root: Path, path: Path) -> str:
+    return ".".join(path.relative_to(root).with_suffix("").parts).removesuffix(".__init__")
+
+
+def imports(root: Path, path: Path) -> set[str]:
+    """Absolute names of all modules that the file imports, anywhere in it; `from a import b` gives a.b."""
+    package = module_name(root, path).split(".")
+    package = package if path.name == "__init__.py" else package[:-1]
+    names = set()
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Import):
+            names |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            above = package[: len(package) - node.level + 1] if node.level else []
+            start = ".".join(above + ([node.module] if node.module else []))
+            names |= {f"{start}.{alias.name}" for alias in node.names}
+    return names
+
+
+def within(name: str, packages: set[str]) -> bool:
+    return any(name == package or name.startswith(package + ".") for package in packages)
+
+
+def python_imports_follow_the_table(root: Path) -> Violations:
+    found = []
+    for layer, packages in python_layers((root / "docs/architecture.md").read_text()).items():
+        for path in sorted((root / "freecad_mpm" / layer).rglob("*.py")):
+            for name in sorted(imports(root, path)):
+                if name.split(".")[0] not in sys.stdlib_module_names and not within(name, packages):
+                    found.append(f"{path}: {layer} must not import {name}")
+    return found
+
+
+def reader_never_uses_the_writers(root: Path) -> Violations:
+    """What program_reader imports, directly or not, holds no module of posts/ but the description."""
+    files = {module_name(root, path): path for path in (root / "freecad_mpm").rglob("*.py")}
+    reached: set[str] = set()
+    waiting = ["freecad_mpm.core.program_reader"]
+    while waiting:
+        module = waiting.pop()
+        if module in reached or module not in files:
+            continue
+        reached.add(module)
+        for name in imports(root, files[module]):
+            waiting += [name, name.rpartition(".")[0]]  # `from a import b`: b may be a module or a name in a
+    allowed = {"freecad_mpm.core.posts.program"}
+    return [
+        f"{files[module]}: program_reader reaches this writer"
+        for module in sorted(reached - allowed)
+        if module.startswith("freecad_mpm.core.posts.")
+    ]
+
+
+# ---------------------------------------------------------------------------------------- the whole tree
+
+NOT_OURS = {".git", "build", "out", "__pycache__", ".pytest_cache", ".mypy_cache", ".hypothesis"}
+OUTSIDE = re.compile(r"\.\./shared\b|/work/")
+
+
+def text_files(root: Path) -> list[Path]:
+    return sorted(
+        path
+        for path in root.rglob("*")
+        if path.is_file()
+        and not NOT_OURS & set(path.relative_to(root).parts)
+        and b"\0" not in path.read_bytes()[:1024]
+    )
+
+
+def stands_alone(root: Path) -> Violations:
+    """Nothing needs a folder beside the checkout; only tests may look for more data there."""
+    return [
+        f"{path}: refers to {match.group()}"
+        for path in text_files(root)
+        if path.relative_to(root).parts[0] != "tests"
+        for match in OUTSIDE.finditer(path.read_text(errors="replace"))
+    ]

@@ -1,0 +1,179 @@
+"""The checkout keeps the rules of docs/architecture.md, and each rule catches what it forbids."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import architecture as rules
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+Rule = Callable[[Path], list[str]]
+
+TABLE = """
+| layer | native module | charter | may use |
+|---|---|---|---|
+| 0 | `base` | low | – |
+| 1 | `surface` | faces | base |
+| 2 | `contact` | one point | 0–1 |
+| 3 | `gouge` | the judge | 0–2 |
+| 4 | `positioning` | the methods | 0–3 |
+| 5 | `path` | order | 0–4 |
+| 6 | `machine` | joints | 0–2, path |
+| side | `occt` | files | base, surface |
+
+| package | charter | may import |
+|---|---|---|
+| `freecad_mpm._core`, `freecad_mpm._occt` | native | – |
+| `freecad_mpm.core` | no FreeCAD | `_core`, numpy |
+| `freecad_mpm.document` | FreeCAD App | `core`, FreeCAD |
+| `freecad_mpm.gui` | window | `document`, `core`, FreeCAD, FreeCADGui, Qt |
+"""
+
+# rule, file, text that it must object to
+FORBIDDEN = [
+    (rules.native_includes_follow_the_table, "native/src/mpm/gouge/a.h", '#include "mpm/positioning/b.h"'),
+    (rules.native_includes_follow_the_table, "native/src/mpm/base/a.cpp", '#include "mpm/surface/b.h"'),
+    (rules.native_includes_follow_the_table, "native/src/mpm/machine/a.cpp", '#  include "mpm/gouge/b.h"'),
+    (rules.native_includes_follow_the_table, "native/src/mpm/surface/a.cpp", '#include "mpm/occt/b.h"'),
+    (rules.native_includes_follow_the_table, "native/src/mpm/novel/a.cpp", "int x;"),
+    (rules.judge_is_independent, "docs/architecture.md", TABLE.replace("0–2 |\n| 4", "0–4 |\n| 4")),
+    (rules.tbb_has_one_door, "native/src/mpm/path/a.cpp", "#include <tbb/parallel_for.h>"),
+    (rules.tbb_has_one_door, "native/bindings/core/a.cpp", "#include <oneapi/tbb.h>"),
+    (rules.opencascade_stays_in_occt, "native/src/mpm/surface/a.cpp", "#include <gp_Pnt.hxx>"),
+    (rules.opencascade_stays_in_occt, "native/bindings/core/a.cpp", "#include <TopoDS.hxx>"),
+    (rules.core_neither_prints_nor_aborts, "native/src/mpm/base/a.cpp", 'void f() { printf("x"); }'),
+    (rules.core_neither_prints_nor_aborts, "native/src/mpm/base/a.cpp", "void f() { std::cerr << 1; }"),
+    (rules.core_neither_prints_nor_aborts, "native/src/mpm/base/a.h", "void f() { assert(x > 0); }"),
+    (rules.core_neither_prints_nor_aborts, "native/src/mpm/base/a.h", "void f() { std::abort(); }"),
+    (rules.small_numbers_have_names, "native/src/mpm/base/a.cpp", "bool f(double x) { return x < 1e-9; }"),
+    (rules.small_numbers_have_names, "native/src/mpm/base/a.cpp", "void f() { double x = 1.5E-3; }"),
+    (rules.small_numbers_have_names, "native/src/mpm/base/a.h", "void f() { g(1e-12); }"),
+    (rules.python_imports_follow_the_table, "freecad_mpm/core/a.py", "import FreeCAD"),
+    (
+        rules.python_imports_follow_the_table,
+        "freecad_mpm/core/a.py",
+        "def f():\n    from PySide2 import QtCore",
+    ),
+    (rules.python_imports_follow_the_table, "freecad_mpm/core/posts/a.py", "from ...document import b"),
+    (rules.python_imports_follow_the_table, "freecad_mpm/core/a.py", "import scipy.optimize"),
+    (rules.python_imports_follow_the_table, "freecad_mpm/document/a.py", "from freecad_mpm import gui"),
+    (rules.python_imports_follow_the_table, "freecad_mpm/document/a.py", "import FreeCADGui"),
+    (rules.reader_never_uses_the_writers, "freecad_mpm/core/program_reader.py", "from .posts import dmu80p"),
+    (rules.reader_never_uses_the_writers, "freecad_mpm/core/program_reader.py", "from . import helper"),
+    (rules.stands_alone, "docs/a.md", "see ../shared/design.md"),
+    (rules.stands_alone, "dev", "cat /work/notes"),
+]
+
+# rule, file, text that it must accept
+ALLOWED = [
+    (
+        rules.native_includes_follow_the_table,
+        "native/src/mpm/machine/a.cpp",
+        '#include "mpm/path/b.h"\n#include <map>',
+    ),
+    (rules.native_includes_follow_the_table, "native/src/mpm/occt/a.cpp", '#include "mpm/surface/b.h"'),
+    (rules.judge_is_independent, "docs/architecture.md", TABLE),
+    (rules.tbb_has_one_door, "native/src/mpm/base/parallel.cpp", "#include <tbb/parallel_for.h>"),
+    (rules.opencascade_stays_in_occt, "native/src/mpm/occt/a.cpp", "#include <gp_Pnt.hxx>"),
+    (rules.core_neither_prints_nor_aborts, "native/src/mpm/base/a.h", "static_assert(true);  // assert(x)"),
+    (
+        rules.core_neither_prints_nor_aborts,
+        "native/src/mpm/base/a.h",
+        'auto s = "abort()"; int snprintf(int);',
+    ),
+    (rules.core_neither_prints_nor_aborts, "native/src/mpm/occt/a.cpp", "std::cout.rdbuf(nullptr);"),
+    (rules.small_numbers_have_names, "native/src/mpm/base/a.cpp", "constexpr double kX = 1e-9;  // not 1e-8"),
+    (rules.small_numbers_have_names, "native/src/mpm/base/a.h", "struct O {\n  double gouge = 1e-3;\n};"),
+    (rules.small_numbers_have_names, "native/src/mpm/base/a.cpp", "double f() { return 1e+9 + 1e6 + 0.5; }"),
+    (
+        rules.python_imports_follow_the_table,
+        "freecad_mpm/core/a.py",
+        "import json\nfrom .. import _core\nimport numpy",
+    ),
+    (
+        rules.python_imports_follow_the_table,
+        "freecad_mpm/core/posts/a.py",
+        "from .. import job\nfrom . import program",
+    ),
+    (
+        rules.python_imports_follow_the_table,
+        "freecad_mpm/gui/a.py",
+        "import FreeCADGui\nfrom ..document import b",
+    ),
+    (
+        rules.reader_never_uses_the_writers,
+        "freecad_mpm/core/program_reader.py",
+        "from .posts.program import Block",
+    ),
+    (rules.stands_alone, "tests/core/test_a.py", 'DATA = "../shared/data"'),
+    (rules.stands_alone, "docs/a.md", "a shared vocabulary"),
+]
+
+ALL_RULES = list(dict.fromkeys(rule for rule, _, _ in FORBIDDEN))
+
+
+def case_name(value: object) -> str | None:
+    return getattr(value, "__name__", None)
+
+
+@pytest.fixture
+def checkout(tmp_path: Path) -> Path:
+    """A tiny checkout that keeps all rules."""
+    for name, text in {
+        "docs/architecture.md": TABLE,
+        "freecad_mpm/core/program_reader.py": "import re",
+        "freecad_mpm/core/helper.py": "from .posts.dmu80p import write",
+        "freecad_mpm/core/posts/dmu80p.py": "from .program import Program",
+        "freecad_mpm/core/posts/program.py": "class Program: ...",
+    }.items():
+        put(tmp_path, name, text)
+    return tmp_path
+
+
+def put(root: Path, name: str, text: str) -> None:
+    path = root / name
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text)
+
+
+@pytest.mark.parametrize("rule", ALL_RULES, ids=case_name)
+def test_the_checkout_keeps_the_rule(rule: Rule) -> None:
+    assert rule(ROOT) == []
+
+
+@pytest.mark.parametrize("rule", ALL_RULES, ids=case_name)
+def test_the_tiny_checkout_keeps_the_rule(rule: Rule, checkout: Path) -> None:
+    assert rule(checkout) == []
+
+
+@pytest.mark.parametrize(("rule", "name", "text"), FORBIDDEN, ids=case_name)
+def test_the_rule_objects(rule: Rule, name: str, text: str, checkout: Path) -> None:
+    put(checkout, name, text)
+    assert len(rule(checkout)) == 1
+
+
+@pytest.mark.parametrize(("rule", "name", "text"), ALLOWED, ids=case_name)
+def test_the_rule_accepts(rule: Rule, name: str, text: str, checkout: Path) -> None:
+    put(checkout, name, text)
+    assert rule(checkout) == []
+
+
+def test_the_layer_table_is_read_whole() -> None:
+    layers = rules.native_layers(TABLE)
+    assert layers["gouge"] == {"base", "surface", "contact"}
+    assert layers["machine"] == {"base", "surface", "contact", "path"}
+    assert layers["base"] == set()
+    with pytest.raises(ValueError, match="nonsense"):
+        rules.native_layers(TABLE + "| 7 | `plan` | all | nonsense |\n")
+
+
+def test_the_package_table_is_read_whole() -> None:
+    layers = rules.python_layers(TABLE)
+    assert layers["core"] == {"freecad_mpm.core", "freecad_mpm._core", "numpy"}
+    assert {"FreeCAD", "Part", "freecad_mpm.core"} <= layers["document"]
+    assert layers["_occt"] == {"freecad_mpm._occt"}
+
+
+def test_every_module_of_the_table_is_there_and_nothing_else() -> None:
+    folders = {path.name for path in (ROOT / "native/src/mpm").iterdir() if path.is_dir()}
+    assert folders == set(rules.layers_of(ROOT))
