@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cmath>
 #include <limits>
 #include <numbers>
 
@@ -21,6 +22,10 @@ inline constexpr double kRoundoff = std::numeric_limits<double>::epsilon() / 2;
 
 inline constexpr double degrees(double radians) { return radians * (180.0 / kPi); }
 inline constexpr double radians(double degrees) { return degrees * (kPi / 180.0); }
+
+// sqrt(x^2 + y^2), to a few roundings; lengths here are far from overflow, where std::hypot would earn its
+// price.
+inline double hypotenuse(double x, double y) { return std::sqrt(x * x + y * y); }
 
 // Axis-parallel box in space; empty when lo > hi.
 struct Box3 {

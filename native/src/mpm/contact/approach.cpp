@@ -15,7 +15,7 @@ RingDistance ring_distance(const Tool& tool, const ToolPose& pose, const Vec3& s
   const Vec3 radial = x - z * pose.axis;
   const double r = radial.norm();
   const Vec3 out = r > 0 ? Vec3(radial / r) : pose.axis.unitOrthogonal();
-  const double to_circle = std::hypot(r - tool.major_radius, z);
+  const double to_circle = hypotenuse(r - tool.major_radius, z);
   const double nr = (r - tool.major_radius) / to_circle, nz = z / to_circle;
   const Vec3 around = pose.axis.cross(out), tangent = nr * pose.axis - nz * out;
   RingDistance d;

@@ -4,19 +4,13 @@
 
 #include "mpm/contact/drop.h"
 #include "mpm/contact/insert.h"
-#include "mpm/surface/bezier_patch.h"
+#include "mpm/contact/patch_search.h"
 
 namespace mpm {
 
 // A motion of the tool with parameter x; the ring meets a surface point s at x = arrival(s). The tool's first
 // touch is the least arrival over the surface. `velocity`, `velocity_slope` and `acceleration` describe how a
 // surface point moves relative to the tool: ds/dx = w(s), dw/ds, d2s/dx2.
-struct ArrivalDerivatives {
-  double x;       // arrival(s)
-  Vec2 gradient;  // with respect to the surface parameters
-  Eigen::Matrix2d hessian;
-};
-
 // Lowering an upright tool over plan point `at` along -z; x = -(height of the torus centre), mm.
 class Drop {
  public:
@@ -58,17 +52,18 @@ struct RingDistance {
 };
 RingDistance ring_distance(const Tool& tool, const ToolPose& pose, const Vec3& s);
 
-// Derivatives of the arrival at `p` by the implicit function theorem on distance(s(u, v), pose(x)) = 0. The
+// Derivatives of the arrival x at `p` by the implicit function theorem on distance(s(u, v), pose(x)) = 0. The
 // gradient is NaN where the motion is tangent to the ring there.
 template <class Approach>
-ArrivalDerivatives arrival_derivatives(const Tool& tool, const Approach& approach, const SurfacePoint& p) {
-  ArrivalDerivatives a{approach.arrival(p.s), Vec2::Constant(kNaN), Eigen::Matrix2d::Constant(kNaN)};
-  if (!(a.x < kInfinity)) return a;
-  const RingDistance d = ring_distance(tool, approach.pose(a.x), p.s);
+Derivatives arrival_derivatives(const Tool& tool, const Approach& approach, const SurfacePoint& p, double x) {
+  Derivatives a;
+  a.value = x;
+  const RingDistance d = ring_distance(tool, approach.pose(x), p.s);
   const Vec3 w = approach.velocity(p.s);
   const Mat3 slope = approach.velocity_slope();
   const double dx = d.gradient.dot(w);
   if (!(dx < 0)) return a;
+  a.gap_rate = -dx;
   const Vec3 hu = d.hessian * p.su, hv = d.hessian * p.sv;
   const double dux = hu.dot(w) + d.gradient.dot(slope * p.su), dvx = hv.dot(w) + d.gradient.dot(slope * p.sv);
   const double dxx = w.dot(d.hessian * w) + d.gradient.dot(approach.acceleration(p.s));

@@ -7,7 +7,6 @@ namespace mpm {
 namespace {
 
 constexpr double kBoundRoundoff = 1024 * kRoundoff;
-constexpr double kTangentShare = 0.25;  // q below: how much of the minor circle's curvature pays for the rest
 
 // Least value of f + g a + h a^2 over a in [-1, 1].
 double least_on_edge(double f, double g, double h) {
@@ -34,31 +33,104 @@ ClearanceBound::ClearanceBound(const Tool& tool, const ToolPose& pose) : tool_(t
   rounding_ = kBoundRoundoff * (pose.torus_center.cwiseAbs().maxCoeff() + tool.length() + tool.reach());
 }
 
-ClearanceBound::Answer ClearanceBound::operator()(const QuadraticCell& cell, double enough) const {
-  const Vec3 x = cell.c - pose_.torus_center;
+ClearanceBound::Meridian ClearanceBound::meridian(const Vec3& s) const {
+  const Vec3 x = s - pose_.torus_center;
   Meridian at;
   at.z = x.dot(pose_.axis);
   const Vec3 radial = x - at.z * pose_.axis;
   at.r = radial.norm();
-  const double to_circle = std::hypot(at.r - tool_.major_radius, at.z);
-  const double ring = to_circle - tool_.minor_radius;
-  Answer answer{ring - cell.radius, ring};
+  at.radial = at.r > 0 ? Vec3(radial / at.r) : pose_.axis.unitOrthogonal();
+  return at;
+}
+
+ClearanceBound::Answer ClearanceBound::operator()(const QuadraticCell& cell, double enough) const {
+  const Meridian at = meridian(cell.c);
+  const double ring_center = hypotenuse(at.r - tool_.major_radius, at.z) - tool_.minor_radius;
+  Answer answer{ring_center - cell.radius, ring_center};
   if (answer.lower < enough && at.r > cell.radius) {
-    at.radial = radial / at.r;
-    answer.lower = std::max(answer.lower, ring_second_order(cell, at, to_circle));
-  } else if (at.r > 0) {
-    at.radial = radial / at.r;
-  } else {
-    at.radial = pose_.axis.unitOrthogonal();
+    const QuadraticBound q = ring(cell, at);
+    answer.lower = std::max(answer.lower, least_quadratic(q.f - q.loss, q.g1, q.g2, q.h11, q.h12, q.h22));
   }
   answer.lower -= rounding_;
-  if (answer.lower < enough && answer.center < -cell.radius) return answer;  // hopeless as a whole
-  double top = tool_.flute_length - tool_.minor_radius;
-  const auto include = [&](double r0, double r1, double z0, double z1) {
-    double center = 0;
-    answer.lower = std::min(answer.lower, convex_piece(cell, at, r0, r1, z0, z1, enough, center) - rounding_);
-    answer.center = std::min(answer.center, center);
+  const Answer rest = pieces(cell, at, enough);
+  return {std::min(answer.lower, rest.lower), std::min(answer.center, rest.center)};
+}
+
+QuadraticBound ClearanceBound::ring(const QuadraticCell& cell) const { return ring(cell, meridian(cell.c)); }
+
+ClearanceBound::Answer ClearanceBound::pieces(const QuadraticCell& cell, double enough) const {
+  return pieces(cell, meridian(cell.c), enough);
+}
+
+// Distance from the major circle along the cell, bounded below by a quadratic in a and b. With the centre at
+// radius r0 and distance D0 from the circle, and a displacement split along the gradient n, the meridian
+// tangent t and the ring's tangent p:
+//   D = hypot(D0 + dn + n_r e, dt + t_r e) >= D0 + dn + k_p dp^2 + k_t (dt + t_r e)^2,
+// where e, the radius that dp adds, lies between dp^2 / (2 (greatest radius)) and dp^2 / (2 (least radius)).
+// k_t is one over the greatest sum of hypotenuse and leg; k_p is n_r times the bound of e on the safe side
+// (inside the ring n_r < 0: the tool curves towards the surface there). What bends within the cell (C, E, F)
+// goes into the loss where it multiplies a length.
+QuadraticBound ClearanceBound::ring(const QuadraticCell& cell, const Meridian& at) const {
+  const Vec3& axis = pose_.axis;
+  const double distance = hypotenuse(at.r - tool_.major_radius, at.z);
+  const Vec3 around = axis.cross(at.radial);
+  const double nr = (at.r - tool_.major_radius) / distance, nz = at.z / distance;
+  // Components of the cell's vectors along the radius, n, t and the ring's tangent.
+  struct Component {
+    double r, n, t, p;
   };
+  const auto split = [&](const Vec3& v) -> Component {
+    const double r = at.radial.dot(v), z = axis.dot(v);
+    return {r, nr * r + nz * z, nr * z - nz * r, around.dot(v)};
+  };
+  const Component A = split(cell.A), B = split(cell.B), C = split(cell.C), E = split(cell.E),
+                  F = split(cell.F);
+  const auto rest = [&](double Component::*k) { return std::abs(C.*k) + std::abs(E.*k) + std::abs(F.*k); };
+  const auto linear = [&](double Component::*k) { return std::abs(A.*k) + std::abs(B.*k); };
+  const double p_linear = linear(&Component::p), p_rest = rest(&Component::p), p_most = p_linear + p_rest;
+  const double dr = std::min(linear(&Component::r) + rest(&Component::r), cell.radius);
+  const double bulge = p_most * p_most / (2 * (at.r - dr));
+  const double t_linear = linear(&Component::t), t_extra = rest(&Component::t) + std::abs(nz) * bulge;
+  const double leg = distance + linear(&Component::n) + rest(&Component::n) + std::abs(nr) * bulge;
+  const double kt = 1 / (leg + hypotenuse(leg, t_linear + t_extra));
+  const double kp = nr >= 0 ? nr / (at.r + dr + hypotenuse(at.r + dr, p_most)) : nr / (2 * (at.r - dr));
+  const double p_loss = std::abs(kp) * (2 * p_linear * p_rest + (kp < 0 ? p_rest * p_rest : 0.0));
+  return {distance - tool_.minor_radius,
+          A.n,
+          B.n,
+          C.n + kp * A.p * A.p + kt * A.t * A.t,
+          E.n + 2 * (kp * A.p * B.p + kt * A.t * B.t),
+          F.n + kp * B.p * B.p + kt * B.t * B.t,
+          cell.error + p_loss + kt * 2 * t_linear * t_extra};
+}
+
+ClearanceBound::Answer ClearanceBound::pieces(const QuadraticCell& cell,
+                                              const Meridian& at,
+                                              double enough) const {
+  Answer answer{kInfinity, kInfinity};
+  // A convex piece's signed distance is convex, so a supporting plane at the centre bounds it from below.
+  const auto include = [&](double r0, double r1, double z0, double z1) {
+    const double below = z0 - at.z - cell.radius;
+    if (below >= enough) {  // the whole cell lies below the piece
+      answer.lower = std::min(answer.lower, below - rounding_);
+      return;
+    }
+    const ConeDistance d = cone_distance(at.r, at.z, r0, r1, z0, z1);
+    double lower = d.distance - cell.radius;
+    if (lower < enough) {
+      const Vec3 n = d.slope_r * at.radial + d.slope_z * pose_.axis;
+      lower = std::max(lower,
+                       least_quadratic(d.distance - cell.error,
+                                       n.dot(cell.A),
+                                       n.dot(cell.B),
+                                       n.dot(cell.C),
+                                       n.dot(cell.E),
+                                       n.dot(cell.F)));
+    }
+    answer.lower = std::min(answer.lower, lower - rounding_);
+    answer.center = std::min(answer.center, d.distance);
+  };
+  double top = tool_.flute_length - tool_.minor_radius;
   include(tool_.radius(), tool_.radius(), 0.0, top);
   if (tool_.recess < tool_.minor_radius)
     include(tool_.major_radius, tool_.major_radius, tool_.recess - tool_.minor_radius, 0.0);
@@ -67,73 +139,6 @@ ClearanceBound::Answer ClearanceBound::operator()(const QuadraticCell& cell, dou
     top += s.length;
   }
   return answer;
-}
-
-// Distance from the major circle along the cell, bounded below by a quadratic in a and b. With the centre at
-// radius r0 and distance D0 from the circle, and a displacement split along the gradient n, the meridian
-// tangent t and the ring's tangent p, no larger than R:
-//   D >= D0 + dn + k_p dp^2 + k_t (dt + e)^2,  k_t = 1 / (2 (D0 + R)),  k_p = n_r / (2 (r0 +- R)),
-// the sign of n_r choosing the side that is safe (inside the ring n_r < 0: the tool curves towards the
-// surface there) and e what the surface's bending and the ring's curvature add along t. (dt + e)^2 >= (1 - q)
-// dt^2 - (1/q - 1) e^2 costs only fourth order.
-double ClearanceBound::ring_second_order(const QuadraticCell& cell,
-                                         const Meridian& at,
-                                         double distance) const {
-  const double reach = cell.radius;
-  const Vec3& axis = pose_.axis;
-  const Vec3 around = axis.cross(at.radial);
-  const double nr = (at.r - tool_.major_radius) / distance, nz = at.z / distance;
-  const Vec3 n = nr * at.radial + nz * axis, t = nr * axis - nz * at.radial;
-  const double kp = nr >= 0 ? nr / (2 * (at.r + reach)) : nr / (2 * (at.r - reach));
-  const double kt = 1 / (2 * (distance + reach));
-
-  const double pA = around.dot(cell.A), pB = around.dot(cell.B), tA = t.dot(cell.A), tB = t.dot(cell.B);
-  const double p_linear = std::abs(pA) + std::abs(pB);
-  const double p_rest =
-      std::abs(around.dot(cell.C)) + std::abs(around.dot(cell.E)) + std::abs(around.dot(cell.F));
-  const double t_rest = std::abs(t.dot(cell.C)) + std::abs(t.dot(cell.E)) + std::abs(t.dot(cell.F));
-  const double p_most = p_linear + p_rest;
-  const double bulge =
-      p_most * p_most / (2 * (at.r - reach));  // how much the ring's curvature adds to the radius
-  const double p_loss = std::abs(kp) * (2 * p_linear * p_rest + (kp < 0 ? p_rest * p_rest : 0.0));
-  const double gA = n.dot(cell.A), gB = n.dot(cell.B);
-  const double t_extra = t_rest + std::abs(nz) * bulge;
-  const double t_loss = kt * (1 / kTangentShare - 1) * t_extra * t_extra;
-  const double kt_kept = kt * (1 - kTangentShare);
-  const auto bound = [&](double loss, double k) {
-    return least_quadratic(distance - tool_.minor_radius - cell.error - p_loss - loss,
-                           gA,
-                           gB,
-                           n.dot(cell.C) + kp * pA * pA + k * tA * tA,
-                           n.dot(cell.E) + 2 * (kp * pA * pB + k * tA * tB),
-                           n.dot(cell.F) + kp * pB * pB + k * tB * tB);
-  };
-  const double whole = bound(kt * 2 * (std::abs(tA) + std::abs(tB)) * t_extra, kt);
-  return std::max(whole, bound(t_loss, kt_kept));
-}
-
-// A convex piece of the body: its signed distance is convex, so a supporting plane at the centre bounds it
-// from below.
-double ClearanceBound::convex_piece(const QuadraticCell& cell,
-                                    const Meridian& at,
-                                    double bottom_radius,
-                                    double top_radius,
-                                    double z0,
-                                    double z1,
-                                    double enough,
-                                    double& center) const {
-  const ConeDistance d = cone_distance(at.r, at.z, bottom_radius, top_radius, z0, z1);
-  center = d.distance;
-  const double first = d.distance - cell.radius;
-  if (first >= enough) return first;
-  const Vec3 n = d.slope_r * at.radial + d.slope_z * pose_.axis;
-  return std::max(first,
-                  least_quadratic(d.distance - cell.error,
-                                  n.dot(cell.A),
-                                  n.dot(cell.B),
-                                  n.dot(cell.C),
-                                  n.dot(cell.E),
-                                  n.dot(cell.F)));
 }
 
 }  // namespace mpm

@@ -9,6 +9,12 @@ namespace mpm {
 // Least value of f + g1 a + g2 b + h11 a^2 + h12 a b + h22 b^2 over a, b in [-1, 1].
 double least_quadratic(double f, double g1, double g2, double h11, double h12, double h22);
 
+// f + g1 a + g2 b + h11 a^2 + h12 a b + h22 b^2 - loss max(|a|, |b|)^3: a lower bound of the ring's clearance
+// over a cell.
+struct QuadraticBound {
+  double f, g1, g2, h11, h12, h22, loss;
+};
+
 // One tool at one pose; asks may come from several threads.
 class ClearanceBound {
  public:
@@ -22,20 +28,23 @@ class ClearanceBound {
   // order with the tool's signed curvature (docs/methods/exact.md, section "Bound").
   Answer operator()(const QuadraticCell& cell, double enough) const;
 
+  // The ring alone, to second order. Requires the cell to keep off the tool axis: radius of its centre >
+  // cell.radius.
+  QuadraticBound ring(const QuadraticCell& cell) const;
+
+  // The rest of the body alone.
+  Answer pieces(const QuadraticCell& cell, double enough) const;
+
+  double rounding() const { return rounding_; }
+
  private:
   struct Meridian {  // the cell's centre in the tool's half-plane
     double r, z;
     Vec3 radial;  // unit
   };
-  double ring_second_order(const QuadraticCell& cell, const Meridian& at, double distance) const;
-  double convex_piece(const QuadraticCell& cell,
-                      const Meridian& at,
-                      double bottom_radius,
-                      double top_radius,
-                      double z0,
-                      double z1,
-                      double enough,
-                      double& center) const;
+  Meridian meridian(const Vec3& s) const;
+  QuadraticBound ring(const QuadraticCell& cell, const Meridian& at) const;
+  Answer pieces(const QuadraticCell& cell, const Meridian& at, double enough) const;
 
   const Tool& tool_;
   ToolPose pose_;

@@ -10,7 +10,7 @@ namespace {
 double least_ring_curvature(const Tool& tool,
                             const Insert& insert,
                             const SurfacePoint& at,
-                            const Arrival& contact,
+                            const PatchMinimum& contact,
                             const Vec3& normal) {
   const Vec3 across = normal.cross(insert.u1);
   const auto bending = [&](const Vec3& a, const Vec3& b, const Vec3& second) {
@@ -31,7 +31,7 @@ double least_ring_curvature(const Tool& tool,
 double curvature_limit(const Tool& tool,
                        const Insert& insert,
                        const SurfacePoint& at,
-                       const Arrival& first_contact) {
+                       const PatchMinimum& first_contact) {
   const Vec3 normal = (insert.center - at.s).normalized();
   const double k = least_ring_curvature(tool, insert, at, first_contact, normal);
   const double fit =

@@ -15,6 +15,6 @@ namespace mpm {
 double curvature_limit(const Tool& tool,
                        const Insert& insert,
                        const SurfacePoint& at,
-                       const Arrival& first_contact);
+                       const PatchMinimum& first_contact);
 
 }  // namespace mpm

@@ -3,13 +3,18 @@
 #include <algorithm>
 #include <vector>
 
-#include "mpm/contact/clearance_bound.h"
+#include "mpm/contact/contact_zone.h"
 
 namespace mpm {
 namespace {
 
 constexpr double kTrimResolution = 1e-6;  // mm
 constexpr double kFinestCell = 1e-10;     // mm: smaller cells are all rounding
+constexpr double kZoneCell =
+    1.0 / 6;  // of the cutter's radius: cells from this size down may be near a contact
+constexpr double kZoneGap = 1.0 / 1000;  // of the cutter's radius: how near
+constexpr std::size_t kMaxZones = 8;
+constexpr std::size_t kUsualStack = 256;
 
 struct Task {
   std::uint32_t node;
@@ -22,10 +27,11 @@ struct Task {
 class Search {
  public:
   Search(const CellTree& tree, const Tool& tool, const ToolPose& pose, const CertifyOptions& options)
-      : tree_(tree), bound_(tool, pose), options_(options) {}
+      : tree_(tree), tool_(tool), pose_(pose), bound_(tool, pose), options_(options) {}
 
   Certificate run() {
     result_.lo = options_.enough;
+    stack_.reserve(kUsualStack);
     for (std::uint32_t root : tree_.roots()) push(root);
     while (!stack_.empty()) {
       if (result_.cells >= options_.budget) return give_up();
@@ -57,7 +63,14 @@ class Search {
       result_.lo = std::min(result_.lo, answer.lower);
       return true;
     }
-    if (!look_at_center(task, cell, answer.center)) return false;
+    const double u = task.box.u_mid(), v = task.box.v_mid();
+    if (!look_at(task, cell.radius, {node.face, u, v, cell.c, answer.center})) return false;
+    if (in_zone(node, task)) return true;
+    if (!task.trimmed && node.patch && cell.radius < kZoneCell * tool_.radius() &&
+        std::abs(answer.center) < kZoneGap * tool_.radius() && zones_tried_ < kMaxZones) {
+      if (!add_zone(node, task, u, v)) return false;
+      if (in_zone(node, task)) return true;
+    }
     if (cell.radius < kFinestCell) {
       result_.lo = std::min(result_.lo, answer.lower);
       return true;
@@ -66,18 +79,41 @@ class Search {
     return true;
   }
 
-  bool look_at_center(const Task& task, const QuadraticCell& cell, double distance) {
-    const double u = task.box.u_mid(), v = task.box.v_mid();
-    const std::uint32_t face = tree_.nodes()[task.node].face;
-    if (distance >= result_.hi) return true;
-    if (task.trimmed && cell.radius > kTrimResolution && !tree_.model().faces()[face].trim.contains(u, v))
-      return true;
-    result_.hi = distance;
-    result_.witness = {face, u, v, cell.c, distance};
-    if (distance >= -options_.sharpness || !options_.stop_at_violation) return true;
-    result_.verdict = distance < -options_.tolerance ? Verdict::gouge : Verdict::undecided;
+  // Notes a surface point; false when it is a violation and the search is to stop there.
+  bool look_at(const Task& task, double cell_radius, const Witness& point) {
+    if (point.distance >= result_.hi) return true;
+    const TrimRegion& trim = tree_.model().faces()[point.face].trim;
+    if (task.trimmed && cell_radius > kTrimResolution && !trim.contains(point.u, point.v)) return true;
+    result_.hi = point.distance;
+    result_.witness = point;
+    if (point.distance >= -options_.sharpness || !options_.stop_at_violation) return true;
+    result_.verdict = point.distance < -options_.tolerance ? Verdict::gouge : Verdict::undecided;
     result_.lo = -kInfinity;
     return false;
+  }
+
+  bool in_zone(const CellTree::Node& node, const Task& task) {
+    for (const ContactZone& zone : zones_)
+      if (zone.contains(node.patch, task.box)) {
+        result_.lo = std::min(result_.lo, zone.lower);
+        return true;
+      }
+    return false;
+  }
+
+  // Looks for the contact near (u, v) and the zone it proves; false when it is a violation that ends the
+  // search.
+  bool add_zone(const CellTree::Node& node, const Task& task, double u, double v) {
+    for (const ContactZone& zone : zones_)
+      if (zone.contains(node.patch, {u, u, v, v})) return true;
+    ++zones_tried_;
+    const PatchMinimum lowest = lowest_point(tool_, pose_, *node.patch, u, v);
+    if (!tree_.model().faces()[node.face].trim.contains(lowest.u, lowest.v)) return true;
+    if (!look_at(task, 0, {node.face, lowest.u, lowest.v, lowest.s, lowest.value})) return false;
+    if (lowest.value < -options_.sharpness) return true;
+    const auto zone = contact_zone(tool_, pose_, bound_, *node.patch, node.patch_third, lowest);
+    if (zone && zone->lower >= -options_.sharpness) zones_.push_back(*zone);
+    return true;
   }
 
   void split(const Task& task, const CellTree::Node& node) {
@@ -108,10 +144,14 @@ class Search {
   }
 
   const CellTree& tree_;
+  const Tool& tool_;
+  const ToolPose& pose_;
   ClearanceBound bound_;
   const CertifyOptions& options_;
   Certificate result_;
   std::vector<Task> stack_;
+  std::vector<ContactZone> zones_;
+  std::size_t zones_tried_ = 0;
 };
 
 }  // namespace

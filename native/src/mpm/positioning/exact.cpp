@@ -48,8 +48,8 @@ class Exact final : public Method {
  private:
   struct Touch {
     std::uint32_t face = 0;
-    Arrival at;
-    bool found() const { return at.x < kInfinity; }
+    PatchMinimum at;
+    bool found() const { return at.value < kInfinity; }
   };
 
   void starts_under(const Vec2& at, std::vector<Start>& starts) const;
@@ -130,8 +130,8 @@ Certificate Exact::first_touch(const Approach& approach, double& x, Touch& touch
     if (!options.stop_at_violation || certificate.witness.distance >= -options.sharpness) return certificate;
     const Witness& w = certificate.witness;
     const Touch next = refine(approach, w.face, w.u, w.v, counters);
-    if (next.at.x < x && round < kMaxRounds) {
-      x = next.at.x;
+    if (next.at.value < x && round < kMaxRounds) {
+      x = next.at.value;
       touch = next;
     } else {  // no earlier arrival: not the ring, or rounding; judge the pose as it is
       options.stop_at_violation = false;
@@ -162,8 +162,8 @@ void Exact::tilt(const Touch& first,
   const Tilt approach(tool_, insert);
   double x = limit;
   Touch second = best_start(approach, starts, x, counters);
-  if (second.found() && second.at.x < x)
-    x = second.at.x;
+  if (second.found() && second.at.value < x)
+    x = second.at.value;
   else
     second = {};
   const Certificate certificate = first_touch(approach, x, second, counters);
@@ -198,7 +198,7 @@ Placement Exact::place(const Vec2& at, Counters& counters) const {
   const Drop approach(tool_, at);
   Touch first = best_start(approach, starts, kInfinity, counters);
   if (!first.found()) return placement;
-  double x = first.at.x;
+  double x = first.at.value;
   const Certificate certificate = first_touch(approach, x, first, counters);
   if (model_.faces()[first.face].check) return placement;
   placement.pose = approach.pose(x);

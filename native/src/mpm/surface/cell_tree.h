@@ -21,7 +21,8 @@ class CellTree {
     std::uint32_t face = 0;
     // Of a leaf only.
     const BezierPatch* patch = nullptr;
-    double third = 0;  // third_derivative_bound over the leaf
+    double third = 0;        // third_derivative_bound over the leaf
+    double patch_third = 0;  // the same over its whole patch
   };
 
   // Leaves are about `leaf_size` mm or less, or as small as `max_leaves` allows (at least one a Bézier

@@ -1,6 +1,8 @@
 // A piece of surface as a quadratic in two variables with a proven error: what every bound is computed from.
 #pragma once
 
+#include <algorithm>
+
 #include "mpm/surface/bezier_patch.h"
 
 namespace mpm {
@@ -13,7 +15,9 @@ struct QuadraticCell {
   double error = 0;   // mm
   double radius = 0;  // mm: no point of the piece is farther from c
 
-  void set_radius() { radius = A.norm() + B.norm() + C.norm() + E.norm() + F.norm() + error; }
+  void set_radius() {
+    radius = std::max((A + B).norm(), (A - B).norm()) + C.norm() + E.norm() + F.norm() + error;
+  }
 };
 
 // Bound (mm) of |D^3 S [x, x, x]| for x in [-1, 1]^2, the third derivative along any such direction anywhere

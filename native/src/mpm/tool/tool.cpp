@@ -18,7 +18,7 @@ void check_length(double value, const char* name, bool may_be_zero) {
 }  // namespace
 
 ConeDistance cone_distance(double r, double z, double r0, double r1, double z0, double z1) {
-  const double length = z1 - z0, slant = std::hypot(length, r1 - r0);
+  const double length = z1 - z0, slant = hypotenuse(length, r1 - r0);
   const double below = z0 - z, above = z - z1;
   const double side = (length * (r - r0) - (r1 - r0) * (z - z0)) / slant;  // beyond the slanted side
   if (below <= 0 && above <= 0 && side <= 0) {
@@ -31,7 +31,7 @@ ConeDistance cone_distance(double r, double z, double r0, double r1, double z0, 
       {std::min(r, r0), z0}, {std::min(r, r1), z1}, {r0 + t * (r1 - r0), z0 + t * length}};
   ConeDistance best{kInfinity, 0, 0};
   for (const Vec2& p : nearest) {
-    const double distance = std::hypot(r - p.x(), z - p.y());
+    const double distance = hypotenuse(r - p.x(), z - p.y());
     if (distance < best.distance) best = {distance, (r - p.x()) / distance, (z - p.y()) / distance};
   }
   // On the side itself the quotient above is 0/0: take the side's normal.
@@ -71,7 +71,7 @@ void check_tool(const Tool& tool) {
 }
 
 double signed_distance(const Tool& tool, double r, double z) {
-  const double ring = std::hypot(r - tool.major_radius, z) - tool.minor_radius;
+  const double ring = hypotenuse(r - tool.major_radius, z) - tool.minor_radius;
   double top = tool.flute_length - tool.minor_radius;
   double distance = std::min(ring, cone_distance(r, z, tool.radius(), tool.radius(), 0.0, top).distance);
   if (tool.major_radius > 0) {
