@@ -16,7 +16,7 @@ from .sections import Section, key, read_toml, suggestion
 from .tools import ToolSpec
 
 # Names given when the job names none.
-DEFAULT_METHOD = "vcrf"
+DEFAULT_METHOD = "exact"
 DEFAULT_MACHINE = "dmu80p"
 DEFAULT_POST = "dmu80p"
 

@@ -138,7 +138,8 @@ def unbroken_runs(pass_index: Integers, keep: Flags) -> Integers:
 
 
 def place(job: Job, scene: Scene, footprint: Footprint, stages: Stages) -> tuple[Positions, dict[str, int]]:
-    """Positions in the set-up frame, judged by dense sampling, and the method's counters."""
+    """Positions in the set-up frame, and the method's counters; a second opinion by dense sampling may lower the upper
+    bounds of their clearances."""
     method = job.method
     with blame(f"{job.source}: [{method.table}]"):
         placed = stages.run_native(
@@ -157,7 +158,7 @@ def place(job: Job, scene: Scene, footprint: Footprint, stages: Stages) -> tuple
     placed["status"] = np.array(_core.POSITION_STATUS)[placed["status"]]
     positions = Positions(**placed, pass_index=footprint.pass_index)
     usable = positions.usable
-    positions.clearance[usable, 1] = stages.run_native(
+    sampled = stages.run_native(
         "judge",
         _core.sampled_clearance,
         scene.model,
@@ -165,6 +166,7 @@ def place(job: Job, scene: Scene, footprint: Footprint, stages: Stages) -> tuple
         positions.tip[usable],
         positions.axis[usable],
     )
+    positions.clearance[usable, 1] = np.minimum(positions.clearance[usable, 1], sampled)
     return positions, counters
 
 
