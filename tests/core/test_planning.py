@@ -31,6 +31,7 @@ def thesis_job(thesis_part: Callable[[str], Path]) -> Job:
     return Job(
         part=Part(file=str(thesis_part("saddle"))),
         tool=tools.load(TOOLS / "thesis.toml"),
+        method=MethodSpec("vcrf"),
         tolerance=Tolerance(gouge_mm=0.02, chord_mm=2.0),
     )
 
@@ -80,11 +81,23 @@ def test_contacts_touch_tool_and_surface(coarse_job: Job) -> None:
         assert np.abs(distances).max() < 0.02
 
 
+def test_the_default_method_proves_its_positions(coarse_job: Job) -> None:
+    plan = planning.plan(
+        replace(coarse_job, method=MethodSpec(), tolerance=Tolerance(gouge_mm=0.001, chord_mm=2.0))
+    )
+    assert plan.report["positions"]["guarantee"] == "proven"
+    assert plan.clearance[:, 0].min() >= -0.001
+    assert (plan.clearance[:, 0] <= plan.clearance[:, 1]).all()
+    assert plan.report["verdict"]["line"] == "good (positions proven, moves between them sampled)"
+
+
 def same_results(plan: Plan) -> tuple[str, str]:
     return cl_file.to_csv(plan, plan.path), plan.program.text
 
 
-def test_any_number_of_threads_gives_the_same_bytes(coarse_job: Job) -> None:
+@pytest.mark.parametrize("method", planning.method_names())
+def test_any_number_of_threads_gives_the_same_bytes(coarse_job: Job, method: str) -> None:
+    coarse_job = replace(coarse_job, method=MethodSpec(method))
     one, two, all_cores = (planning.plan(coarse_job, threads=threads) for threads in (1, 2, 0))
     assert same_results(one) == same_results(two) == same_results(all_cores)
 
@@ -133,15 +146,15 @@ def test_runs_end_where_points_are_left_out() -> None:
 WRONG_JOBS = [
     ({"method": MethodSpec(name="vcfr")}, r"\[method\] name: unknown method 'vcfr'; did you mean vcrf\?"),
     (
-        {"method": MethodSpec(options={"division": 3})},
+        {"method": MethodSpec("vcrf", options={"division": 3})},
         r"\[method\] options.division: unknown .* mean divisions\?",
     ),
     (
-        {"method": MethodSpec(options={"divisions": "3"})},
+        {"method": MethodSpec("vcrf", options={"divisions": "3"})},
         r"\[method\] options.divisions: must be a number, got '3'",
     ),
-    ({"method": MethodSpec(options={"divisions": -3})}, r"\[method\] divisions"),
-    ({"method": MethodSpec(spin_deg=5)}, r"\[method\] spin_deg: vcrf cannot spin"),
+    ({"method": MethodSpec("vcrf", options={"divisions": -3})}, r"\[method\] divisions"),
+    ({"method": MethodSpec("vcrf", spin_deg=5)}, r"\[method\] spin_deg: vcrf cannot spin"),
     (
         {"footprint": FootprintSpec(side_step_mm=1e-4)},
         r"\[footprint\] steps: .* more than 10000000 positions",
