@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
+from importlib import import_module
+from typing import Any
+
 from .core.version import __version__
 
 __all__ = ["__version__", "create", "plan"]
 
+# Entry point -> its module, imported on first use: FreeCAD imports this package at start, which must stay quick.
+_MODULES = {"plan": "core.planning", "create": "document"}
 
-def __getattr__(name: str) -> object:
-    """Import the two entry points on first use: FreeCAD imports this package at start, which must stay quick."""
-    if name == "plan":
-        from .core.planning import plan
 
-        return plan
-    if name == "create":
-        from .document import create
-
-        return create
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+def __getattr__(name: str) -> Any:
+    if name not in _MODULES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_MODULES[name]}"), name)

@@ -19,8 +19,18 @@ from .stages import Progress
 # Thesis table 1.
 DEFAULT_SURFACES = ("convex", "concave", "saddle")
 
-COLUMNS = ("method", "surface", "threads", "positions", "positions_per_second", "evaluations_per_position")
-HEADINGS = (*COLUMNS[:4], "positions/s", "evaluations/position", "time per stage, s")
+# Key of a row -> heading of its column.
+COLUMNS = {
+    "method": "method",
+    "surface": "surface",
+    "threads": "threads",
+    "positions": "positions",
+    "positions_per_second": "positions/s",
+    "evaluations_per_position": "evaluations/position",
+    "cells_per_position": "cells/position",
+    "worst_clearance_mm": "worst clearance, mm",
+}
+STAGES = "time per stage, s"
 
 Row = dict[str, Any]
 
@@ -74,6 +84,7 @@ def measure(run: Run, on_progress: Progress | None = None) -> Row:
         "positions": positions["count"],
         "positions_per_second": facts["time"]["positions_per_second"],
         "evaluations_per_position": facts["work"]["evaluations_per_position"],
+        "cells_per_position": facts["work"]["cells_per_position"],
         "statuses": positions["statuses"],
         "gouging": positions["gouging"],
         "worst_clearance_mm": worst and worst["clearance_mm"],
@@ -88,7 +99,7 @@ def to_json(rows: Sequence[Row]) -> str:
 
 def table(rows: Sequence[Row]) -> str:
     """The rows for people, in columns."""
-    cells = [HEADINGS, *map(_cells, rows)]
+    cells = [(*COLUMNS.values(), STAGES), *map(_cells, rows)]
     widths = [max(map(len, column)) for column in zip(*cells)]
     return "\n".join(
         "  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip() for row in cells
@@ -97,7 +108,11 @@ def table(rows: Sequence[Row]) -> str:
 
 def _cells(row: Row) -> tuple[str, ...]:
     stages = ", ".join(f"{stage} {seconds:.2f}" for stage, seconds in row["stages_s"].items())
-    return (
-        *(f"{row[name]:.0f}" if isinstance(row[name], float) else str(row[name]) for name in COLUMNS),
-        stages,
-    )
+    return (*(_cell(row[name]) for name in COLUMNS), stages)
+
+
+def _cell(value: Any) -> str:
+    """Large numbers whole, small ones to the nanometre."""
+    if not isinstance(value, float):
+        return "none" if value is None else str(value)
+    return f"{value:.0f}" if abs(value) >= 1 else f"{value:.6f}"

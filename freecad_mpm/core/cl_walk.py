@@ -22,7 +22,10 @@ class Walk:
         self._tip_tolerance_mm, self._axis_tolerance_deg = tip_tolerance_mm, axis_tolerance_deg
         self.next = 0  # pose of the list that is expected
         self._worst: Errors = (0.0, 0.0)
-        self._last: Errors = (0.0, 0.0)  # of the last pose of the list: a later block may still meet it better
+        self._last: Errors = (
+            0.0,
+            0.0,
+        )  # of the last pose of the list: a later block may still meet it better
 
     @property
     def tip_error_mm(self) -> float:

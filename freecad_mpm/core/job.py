@@ -16,7 +16,7 @@ from .sections import Section, key, read_toml, suggestion
 from .tools import ToolSpec
 
 # Names given when the job names none.
-DEFAULT_METHOD = "vcrf"
+DEFAULT_METHOD = "exact"
 DEFAULT_MACHINE = "dmu80p"
 DEFAULT_POST = "dmu80p"
 
@@ -116,10 +116,18 @@ class PostSpec(Section):
     plunge_feed_mm_per_min: float = key(positive("mm/min"), 300.0)
 
 
-SECTIONS: dict[str, type[Section]] = {
-    one.table: one
-    for one in (Part, Setup, ToolSpec, FootprintSpec, MethodSpec, Tolerance, LinkSpec, MachineSpec, PostSpec)
-}
+_TABLES: tuple[type[Section], ...] = (
+    Part,
+    Setup,
+    ToolSpec,
+    FootprintSpec,
+    MethodSpec,
+    Tolerance,
+    LinkSpec,
+    MachineSpec,
+    PostSpec,
+)
+SECTIONS = {one.table: one for one in _TABLES}
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,8 @@ from .. import _core
 from .errors import blame
 from .faces import FaceArrays, to_core
 from .frame import Frame, frame_of
-from .job import Job, Part, ToolSpec
+from .job import Job, Part
+from .tools import ToolSpec
 
 # So many names are listed one by one in a message; of more, the first and the last.
 LISTED_NAMES = 12

@@ -15,7 +15,7 @@ from .frame import Frame
 from .job import Job, MethodSpec
 from .model import Scene, build_scene
 from .part_file import read_part
-from .plan import Floats, Integers, Path, Plan, Positions
+from .plan import Flags, Floats, Integers, Path, Plan, Positions
 from .sections import suggestion
 from .shop import find_shop, run_machine
 from .stages import Cancel, Progress, Stages
@@ -60,8 +60,15 @@ def plan(
     positions, path = positions_in_part(positions, scene.frame), path_in_part(path, scene.frame)
     verdict = judge(positions, path, made.troubles, job.tolerance, guarantee_of(job))
     facts = report.facts(job, shop.machine, positions, path, made, counters, stages.seconds, verdict)
-    parts = {"job": job, "scene": scene, "path": path, "joints": made.joints, "program": made.program}
-    return Plan(**vars(positions), **parts, report=facts)
+    return Plan(
+        **vars(positions),
+        job=job,
+        scene=scene,
+        path=path,
+        joints=made.joints,
+        program=made.program,
+        report=facts,
+    )
 
 
 def method_names() -> list[str]:
@@ -123,15 +130,16 @@ def lay_out(job: Job, scene: Scene, stages: Stages) -> Footprint:
     return Footprint(points[keep], unbroken_runs(pass_index, keep))
 
 
-def unbroken_runs(pass_index: Integers, keep: np.ndarray) -> Integers:
+def unbroken_runs(pass_index: Integers, keep: Flags) -> Integers:
     """Numbers from 0 of the runs of kept points that no other point and no end of a pass interrupts."""
     starts = keep.copy()
     starts[1:] &= ~keep[:-1] | (pass_index[1:] != pass_index[:-1])
-    return np.cumsum(starts)[keep] - 1
+    return np.asarray(np.cumsum(starts)[keep] - 1)
 
 
 def place(job: Job, scene: Scene, footprint: Footprint, stages: Stages) -> tuple[Positions, dict[str, int]]:
-    """Positions in the set-up frame, judged by dense sampling, and the method's counters."""
+    """Positions in the set-up frame, and the method's counters; a second opinion by dense sampling may lower the upper
+    bounds of their clearances."""
     method = job.method
     with blame(f"{job.source}: [{method.table}]"):
         placed = stages.run_native(
@@ -150,7 +158,7 @@ def place(job: Job, scene: Scene, footprint: Footprint, stages: Stages) -> tuple
     placed["status"] = np.array(_core.POSITION_STATUS)[placed["status"]]
     positions = Positions(**placed, pass_index=footprint.pass_index)
     usable = positions.usable
-    positions.clearance[usable, 1] = stages.run_native(
+    sampled = stages.run_native(
         "judge",
         _core.sampled_clearance,
         scene.model,
@@ -158,6 +166,7 @@ def place(job: Job, scene: Scene, footprint: Footprint, stages: Stages) -> tuple
         positions.tip[usable],
         positions.axis[usable],
     )
+    positions.clearance[usable, 1] = np.minimum(positions.clearance[usable, 1], sampled)
     return positions, counters
 
 

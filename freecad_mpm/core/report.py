@@ -13,7 +13,7 @@ from .job import Job
 from .machines import Machine
 from .plan import UNUSABLE, Path, Positions
 from .shop import Made
-from .verdict import Verdict, digging, gouging, undecided
+from .verdict import PROVEN, Verdict, digging, gouging, undecided
 from .version import __version__
 
 Facts = dict[str, Any]
@@ -46,9 +46,8 @@ def facts(
 
 def warnings(job: Job, machine: Machine, positions: Positions, guarantee: str) -> list[str]:
     """What the reader must know although it does not make the plan bad."""
-    found = []
-    if guarantee == "sampled":
-        found.append("clearances are sampled: no proof that nothing between the samples is cut")
+    what = "moves between positions" if guarantee == PROVEN else "clearances"
+    found = [f"{what} are sampled: no proof that nothing between the samples is cut"]
     if not job.tool.shank and not job.tool.holder:
         found.append("the tool has no shank and no holder: only the flutes are kept clear of the part")
     if machine.unconfirmed:
@@ -218,5 +217,6 @@ def _time_lines(facts: Facts) -> list[str]:
     return [
         f"Time: {time['total_s']:.2f} s ({stages})",
         f"{time['positions_per_second']:.0f} positions per second, "
-        f"{work['evaluations_per_position']:.0f} surface evaluations per position",
+        f"{work['evaluations_per_position']:.0f} surface evaluations and {work['cells_per_position']:.0f} bounded cells "
+        "per position",
     ]

@@ -53,7 +53,11 @@ class Made:
     def troubles(self) -> list[str]:
         """One line for each kind of thing that the machine cannot do, or that is wrong with the program."""
         findings = self.report.findings
-        found = [f"{len(findings)} findings of the program's checks, the first: {findings[0]}"] if findings else []
+        found = (
+            [f"{len(findings)} findings of the program's checks, the first: {findings[0]}"]
+            if findings
+            else []
+        )
         return self.joints.troubles() or found
 
 
@@ -97,6 +101,6 @@ def describe(job: Job, shop: Shop, joints: MachinePath, box: tuple[Floats, Float
 
 def check_text(text: str, program: Program, path: Path) -> ProgramReport:
     """Read the program's text back as a control would, and compare its poses with the path's."""
-    parsed = program_reader.parse(text)
+    parsed = program_reader.read(text)
     checks = check_program(parsed, program.machine, path.tip, path.axis)
     return program_report.report(program, len(parsed.blocks), checks)

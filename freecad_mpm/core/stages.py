@@ -39,7 +39,7 @@ class Stages:
     ) -> None:
         self.seconds: dict[str, float] = {}
         self._on_progress = on_progress or (lambda stage, fraction: None)
-        self._is_cancelled: Callable[[], bool] = getattr(cancel, "is_set", cancel) or (lambda: False)
+        self._is_cancelled = _as_function(cancel)
         self._threads = threads
 
     def run(self, stage: str, function: Callable[..., T], *arguments: Any, **named: Any) -> T:
@@ -78,3 +78,9 @@ class Stages:
     def _check(self) -> None:
         if self._is_cancelled():
             raise Cancelled()
+
+
+def _as_function(cancel: Cancel | None) -> Callable[[], bool]:
+    if cancel is None:
+        return lambda: False
+    return cancel if callable(cancel) else cancel.is_set

@@ -26,7 +26,11 @@ class Verdict:
 
     @property
     def line(self) -> str:
-        basis = "proven" if self.guarantee == PROVEN else "sampled: no proof"
+        basis = (
+            "positions proven, moves between them sampled"
+            if self.guarantee == PROVEN
+            else "sampled: no proof"
+        )
         return f"{'good' if self.good else 'NOT GOOD: ' + '; '.join(self.troubles)} ({basis})"
 
 

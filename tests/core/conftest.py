@@ -20,6 +20,9 @@ recess_mm = 6.0
 side_step_mm = 50.0
 forward_step_mm = 25.0
 
+[method]
+name = "vcrf"
+
 [tolerance]
 gouge_mm = 0.02
 chord_mm = 2.0

@@ -115,7 +115,7 @@ BAD_JOBS = [
     ("side_step_mm = 50.0", "side_step_mm = 50\nmargin_mm = -75.1", "[footprint] margin_mm"),
     ("[tool]", "[setup]\nz = [0, 0, 0]\n[tool]", "[setup] z: must be a direction that is not of length zero"),
     ("[tool]", "[setup]\nx = [0, 0, 1]\n[tool]", "[setup] x: must not be parallel to z"),
-    ("[tool]", '[method]\nname = "vrcf"\n[tool]', "[method] name: unknown method 'vrcf'; did you mean vcrf?"),
+    ('name = "vcrf"', 'name = "vrcf"', "[method] name: unknown method 'vrcf'; did you mean vcrf?"),
     ("[tool]", '[machine]\nname = "dmu80"\n[tool]', "[machine] name: machine 'dmu80': unknown"),
     ("[tool]", '[post]\nname = "dmu80"\n[tool]', "[post] name: post 'dmu80': unknown"),
     ("[tool]", '[post]\nprogram_name = "a b"\n[tool]', "[post] program_name: must be"),

@@ -16,6 +16,7 @@ from freecad_mpm.core import cl_file, job, planning, tools
 from freecad_mpm.core.errors import Cancelled, InputError
 from freecad_mpm.core.frame import frame_of
 from freecad_mpm.core.job import FootprintSpec, Job, MethodSpec, Part, Setup, Tolerance
+from freecad_mpm.core.model import native_tool
 from freecad_mpm.core.part_file import read_part
 from freecad_mpm.core.plan import Plan
 from freecad_mpm.core.resources import TOOLS
@@ -30,6 +31,7 @@ def thesis_job(thesis_part: Callable[[str], Path]) -> Job:
     return Job(
         part=Part(file=str(thesis_part("saddle"))),
         tool=tools.load(TOOLS / "thesis.toml"),
+        method=MethodSpec("vcrf"),
         tolerance=Tolerance(gouge_mm=0.02, chord_mm=2.0),
     )
 
@@ -73,17 +75,29 @@ def test_a_plan_holds_what_it_says(coarse_job: Job) -> None:
 
 def test_contacts_touch_tool_and_surface(coarse_job: Job) -> None:
     plan = planning.plan(coarse_job)
-    tool = planning.native_tool(coarse_job.tool)
+    tool = native_tool(coarse_job.tool)
     for tip, axis, contacts in zip(plan.tip, plan.axis, plan.contacts):
         distances = tool.signed_distance(tip, axis, contacts[np.isfinite(contacts).all(axis=1)])
         assert np.abs(distances).max() < 0.02
+
+
+def test_the_default_method_proves_its_positions(coarse_job: Job) -> None:
+    plan = planning.plan(
+        replace(coarse_job, method=MethodSpec(), tolerance=Tolerance(gouge_mm=0.001, chord_mm=2.0))
+    )
+    assert plan.report["positions"]["guarantee"] == "proven"
+    assert plan.clearance[:, 0].min() >= -0.001
+    assert (plan.clearance[:, 0] <= plan.clearance[:, 1]).all()
+    assert plan.report["verdict"]["line"] == "good (positions proven, moves between them sampled)"
 
 
 def same_results(plan: Plan) -> tuple[str, str]:
     return cl_file.to_csv(plan, plan.path), plan.program.text
 
 
-def test_any_number_of_threads_gives_the_same_bytes(coarse_job: Job) -> None:
+@pytest.mark.parametrize("method", planning.method_names())
+def test_any_number_of_threads_gives_the_same_bytes(coarse_job: Job, method: str) -> None:
+    coarse_job = replace(coarse_job, method=MethodSpec(method))
     one, two, all_cores = (planning.plan(coarse_job, threads=threads) for threads in (1, 2, 0))
     assert same_results(one) == same_results(two) == same_results(all_cores)
 
@@ -112,14 +126,15 @@ def test_only_the_named_faces_are_machined(coarse_job: Job) -> None:
 
 
 def test_other_faces_are_kept_clear_of(coarse_job: Job) -> None:
-    """A wall across the part, not to be machined, is cut unless it is left out of the check faces."""
+    """A wall stands on the part, 20 mm high at y = 70: no pose near it stays as it was, and none cuts it."""
     (ground,) = read_part(coarse_job.part.file)
-    wall = replace(ground, name="Wall", poles=ground.poles * [1.0, 0.0, 10.0] + [0.0, 70.0, -700.0])
+    wall = replace(ground, name="Wall", poles=ground.poles * [1.0, 0.0, 1.0] + [0.0, 70.0, 20.0])
     named = replace(coarse_job, part=replace(coarse_job.part, faces=("Face1",)))
-    with_wall, without = planning.plan(named, faces=[ground, wall]), planning.plan(named, faces=[ground])
-    assert with_wall.report["positions"]["gouging"] == 0 or with_wall.report["verdict"]["good"] is False
-    near = np.abs(without.tip[:, 1] - 70.0) < 10.0
-    assert near.any() and not np.allclose(with_wall.tip[near], without.tip[near])
+    without, with_wall = planning.plan(named, faces=[ground]), planning.plan(named, faces=[ground, wall])
+    near = np.abs(without.tip[:, 1] - 70.0) < coarse_job.tool.radius_mm
+    assert near.any()
+    assert (np.abs(with_wall.tip - without.tip)[near].max(axis=1) < 1.0).sum() == 0
+    assert with_wall.clearance[with_wall.usable, 1].min() > -coarse_job.tolerance.gouge_mm
 
 
 def test_runs_end_where_points_are_left_out() -> None:
@@ -131,15 +146,15 @@ def test_runs_end_where_points_are_left_out() -> None:
 WRONG_JOBS = [
     ({"method": MethodSpec(name="vcfr")}, r"\[method\] name: unknown method 'vcfr'; did you mean vcrf\?"),
     (
-        {"method": MethodSpec(options={"division": 3})},
+        {"method": MethodSpec("vcrf", options={"division": 3})},
         r"\[method\] options.division: unknown .* mean divisions\?",
     ),
     (
-        {"method": MethodSpec(options={"divisions": "3"})},
+        {"method": MethodSpec("vcrf", options={"divisions": "3"})},
         r"\[method\] options.divisions: must be a number, got '3'",
     ),
-    ({"method": MethodSpec(options={"divisions": -3})}, r"\[method\] divisions"),
-    ({"method": MethodSpec(spin_deg=5)}, r"\[method\] spin_deg: vcrf cannot spin"),
+    ({"method": MethodSpec("vcrf", options={"divisions": -3})}, r"\[method\] divisions"),
+    ({"method": MethodSpec("vcrf", spin_deg=5)}, r"\[method\] spin_deg: vcrf cannot spin"),
     (
         {"footprint": FootprintSpec(side_step_mm=1e-4)},
         r"\[footprint\] steps: .* more than 10000000 positions",
