@@ -16,9 +16,14 @@ constexpr double kStartPerRadius = 1.0 / 4;  // cells whose centres start the se
 constexpr double kSharpness = 1e-9;          // mm: contacts are found to this depth
 constexpr double kSharpRoundoff = 4096 * kRoundoff;
 constexpr std::uint32_t kSharpBudget = 4000;  // cells; a ring lying on the surface is not resolved further
-constexpr int kMaxRounds = 64;                // contacts tried before a position is given up
-constexpr double kMerged = 0.02;              // mm: a second contact nearer than this is the first
-constexpr double kNoTilt = 1e-9;              // rad
+constexpr double kGougeTolerance = 1e-3;      // mm
+constexpr double kCellBudget = 200'000;
+constexpr int kMaxRounds = 64;           // contacts tried before a position is given up
+constexpr double kFirstBackStep = 1e-6;  // mm or rad, doubled until the body is clear
+constexpr double kMostBackSteps = 1e3;
+constexpr int kBisections = 50;
+constexpr double kMerged = 0.02;  // mm: a second contact nearer than this is the first
+constexpr double kNoTilt = 1e-9;  // rad
 
 struct Start {
   std::uint32_t face;
@@ -49,6 +54,7 @@ class Exact final : public Method {
   struct Touch {
     std::uint32_t face = 0;
     PatchMinimum at;
+    bool body = false;  // with the flat bottom, the flutes, the shank or the holder, not with the ring
     bool found() const { return at.value < kInfinity; }
   };
 
@@ -61,12 +67,14 @@ class Exact final : public Method {
   template <class Approach>
   Touch refine(const Approach& approach, std::uint32_t face, double u, double v, Counters& counters) const;
   template <class Approach>
+  double body_arrival(const Approach& approach, double x, const Vec3& s) const;
+  template <class Approach>
   Certificate first_touch(const Approach& approach, double& x, Touch& touch, Counters& counters) const;
   void tilt(const Touch& first,
             const std::vector<Start>& starts,
             Placement& placement,
             Counters& counters) const;
-  void finish(Placement& placement, const Certificate& certificate, Counters& counters) const;
+  void finish(Placement& placement, const Certificate& certificate) const;
 
   const SurfaceModel& model_;
   Tool tool_;
@@ -117,33 +125,58 @@ Exact::Touch Exact::best_start(const Approach& approach,
   return best ? refine(approach, best->face, best->u, best->v, counters) : Touch{};
 }
 
-// Brings x down to the first touch: the judge looks at the pose at x; where it finds surface inside the tool,
-// that point's own first arrival is the next x, until it finds none. The last certificate belongs to the pose
-// at x.
+// The greatest x' < x at which s is not inside the tool any more, for a point that is inside at x; x when
+// none is near.
 template <class Approach>
-Certificate Exact::first_touch(const Approach& approach, double& x, Touch& touch, Counters& counters) const {
-  Certificate certificate;
-  CertifyOptions options = judge_;
-  for (int round = 0; round <= kMaxRounds; ++round) {
-    certificate = certify_pose(tree_, tool_, approach.pose(x), options);
-    counters.cells += certificate.cells;
-    if (!options.stop_at_violation || certificate.witness.distance >= -options.sharpness) return certificate;
-    const Witness& w = certificate.witness;
-    const Touch next = refine(approach, w.face, w.u, w.v, counters);
-    if (next.at.value < x && round < kMaxRounds) {
-      x = next.at.value;
-      touch = next;
-    } else {  // no earlier arrival: not the ring, or rounding; judge the pose as it is
-      options.stop_at_violation = false;
-      options.sharpness = options.tolerance;
-    }
+double Exact::body_arrival(const Approach& approach, double x, const Vec3& s) const {
+  const auto clear = [&](double at) {
+    return signed_distance(tool_, approach.pose(at), s) >= judge_.tolerance / 2;
+  };
+  double inside = x, step = kFirstBackStep;
+  while (!clear(x - step)) {
+    inside = x - step;
+    step *= 2;
+    if (step > kMostBackSteps) return x;
   }
-  return certificate;
+  double outside = x - step;
+  for (int k = 0; k < kBisections; ++k) {
+    const double middle = 0.5 * (inside + outside);
+    (clear(middle) ? outside : inside) = middle;
+  }
+  return outside;
 }
 
-void Exact::finish(Placement& placement, const Certificate& certificate, Counters&) const {
+// Brings x down to the first touch: the judge looks at the pose at x; where it finds surface inside the tool,
+// that point's own first arrival is the next x, until it finds none. The last certificate belongs to the pose
+// at x. What touches the rest of the body is taken at its deepest point each time and only to half the
+// tolerance.
+template <class Approach>
+Certificate Exact::first_touch(const Approach& approach, double& x, Touch& touch, Counters& counters) const {
+  CertifyOptions options = judge_;
+  for (int round = 0;; ++round) {
+    const Certificate certificate = certify_pose(tree_, tool_, approach.pose(x), options);
+    counters.cells += certificate.cells;
+    const Witness& w = certificate.witness;
+    if (!(w.distance < -options.sharpness) || round == kMaxRounds) return certificate;
+    const Touch ring = refine(approach, w.face, w.u, w.v, counters);
+    if (ring.at.value < x) {
+      x = ring.at.value;
+      touch = ring;
+      continue;
+    }
+    options.stop_at_violation = false;
+    options.sharpness = options.tolerance / 2;
+    const double body = body_arrival(approach, x, w.s);
+    if (!(body < x)) continue;
+    x = body;
+    touch = {w.face, {}, true};
+    touch.at.value = x, touch.at.u = w.u, touch.at.v = w.v, touch.at.s = w.s;
+  }
+}
+
+void Exact::finish(Placement& placement, const Certificate& certificate) const {
   placement.clearance_lo = certificate.lo;
-  placement.clearance_hi = std::min(certificate.hi, 0.0 <= certificate.hi ? certificate.hi : certificate.hi);
+  placement.clearance_hi = certificate.hi;
   if (certificate.verdict == Verdict::undecided) placement.status = PositionStatus::undecided;
 }
 
@@ -185,9 +218,9 @@ void Exact::tilt(const Touch& first,
     placement.status = held ? PositionStatus::edge_contact : PositionStatus::tilt_limited;
   if (second.found() && !merged) {
     placement.second_contact = second.at.s;
-    placement.second_normal = -ring_distance(tool_, placement.pose, second.at.s).gradient;
+    if (!second.body) placement.second_normal = -ring_distance(tool_, placement.pose, second.at.s).gradient;
   }
-  finish(placement, certificate, counters);
+  finish(placement, certificate);
 }
 
 Placement Exact::place(const Vec2& at, Counters& counters) const {
@@ -205,20 +238,23 @@ Placement Exact::place(const Vec2& at, Counters& counters) const {
   placement.first_contact = first.at.s;
   placement.tilt = 0;
   placement.spin = spin_;
-  placement.first_normal = -ring_distance(tool_, placement.pose, first.at.s).gradient;
+  placement.first_normal =
+      first.body ? placement.pose.axis : Vec3(-ring_distance(tool_, placement.pose, first.at.s).gradient);
   const bool on_axis = !((first.at.s - placement.pose.torus_center).head<2>().norm() > kMerged);
-  if (tool_.major_radius > 0 && !on_axis && certificate.verdict == Verdict::free) {
+  if (tool_.major_radius > 0 && !on_axis && !first.body && certificate.verdict == Verdict::free) {
     tilt(first, starts, placement, counters);
   } else {
     placement.status = PositionStatus::one_contact;
-    finish(placement, certificate, counters);
+    finish(placement, certificate);
   }
   return placement;
 }
 
 }  // namespace
 
-std::map<std::string, double> exact_defaults() { return {{"gouge_mm", 1e-3}, {"cell_budget", 200'000}}; }
+std::map<std::string, double> exact_defaults() {
+  return {{"gouge_mm", kGougeTolerance}, {"cell_budget", kCellBudget}};
+}
 
 std::unique_ptr<Method> make_exact(const SurfaceModel& model,
                                    const Tool& tool,

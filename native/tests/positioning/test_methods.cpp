@@ -1,0 +1,154 @@
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "mpm/footprint/raster.h"
+#include "mpm/gouge/clearance_sampler.h"
+#include "mpm/positioning/method.h"
+#include "thesis.h"
+
+namespace mpm {
+namespace {
+
+constexpr double kContact = 1e-9;  // mm
+
+std::vector<Vec2> every(const std::vector<Vec2>& points, std::size_t step) {
+  std::vector<Vec2> some;
+  for (std::size_t i = 0; i < points.size(); i += step) some.push_back(points[i]);
+  return some;
+}
+
+std::vector<Vec2> thesis_footprint() { return raster({0, 0}, {150, 150}, {kPi / 2, 18, 2, 0, false}).points; }
+
+Placements place(const char* method,
+                 const SurfaceModel& model,
+                 const std::vector<Vec2>& points,
+                 double spin = 0,
+                 Tool tool = testing::thesis_tool()) {
+  Context context(2);
+  MethodOptions options;
+  options.spin = spin;
+  return place_all(*make_method(method, model, tool, options), points, context);
+}
+
+std::size_t count(const Placements& p, PositionStatus status) {
+  return std::size_t(
+      std::count_if(p.positions.begin(), p.positions.end(), [&](auto& one) { return one.status == status; }));
+}
+
+class OnThesisSurface : public ::testing::TestWithParam<testing::Thesis> {
+ protected:
+  SurfaceModel model = testing::thesis_model(GetParam());
+  Tool tool = testing::thesis_tool();
+};
+
+// Independent re-implementations of VCRF cut in by 3 to 8 um at their positions and find two contacts nearly
+// everywhere.
+TEST_P(OnThesisSurface, VcrfIsAsGoodAsItsSource) {
+  Context context(2);
+  Placements p = place("vcrf", model, every(thesis_footprint(), 5));
+  judge_by_sampling(model, tool, p, context);
+  EXPECT_GE(count(p, PositionStatus::two_contacts), p.positions.size() * 98 / 100);
+  for (const Placement& one : p.positions) EXPECT_GT(one.clearance_hi, -0.008);
+}
+
+TEST_P(OnThesisSurface, ExactIsProvenAndTouchesTwice) {
+  const Placements p = place("exact", model, every(thesis_footprint(), 5));
+  const ClearanceSampler sampler(model, tool);
+  EXPECT_EQ(count(p, PositionStatus::undecided), 0u);
+  EXPECT_EQ(count(p, PositionStatus::off_part), 0u);
+  EXPECT_GE(count(p, PositionStatus::two_contacts), p.positions.size() * 90 / 100);
+  for (const Placement& one : p.positions) {
+    EXPECT_GE(one.clearance_lo, -1e-3);
+    EXPECT_GE(sampler(one.pose, 1.0).distance, one.clearance_lo);
+    EXPECT_NEAR(signed_distance(tool, one.pose, one.first_contact), 0.0, kContact);
+    if (one.status != PositionStatus::two_contacts) continue;
+    EXPECT_NEAR(signed_distance(tool, one.pose, one.second_contact), 0.0, kContact);
+    EXPECT_GT((one.second_contact - one.first_contact).norm(), 0.02);
+  }
+}
+
+// Neither may tilt further than the other allows: the sampled method overshoots by its grid only.
+TEST_P(OnThesisSurface, ExactNeverTiltsLessThanVcrfWhereVcrfIsFree) {
+  const std::vector<Vec2> points = every(thesis_footprint(), 9);
+  Context context(2);
+  const Placements exact = place("exact", model, points);
+  Placements vcrf = place("vcrf", model, points);
+  judge_by_sampling(model, tool, vcrf, context);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const bool same_contact =
+        (exact.positions[i].first_contact - vcrf.positions[i].first_contact).norm() < 0.01;
+    if (same_contact && vcrf.positions[i].clearance_hi > -1e-5)
+      EXPECT_GT(exact.positions[i].tilt, vcrf.positions[i].tilt - radians(0.03)) << points[i].transpose();
+  }
+}
+
+TEST_P(OnThesisSurface, ThreadsAndOrderDoNotChangeABit) {
+  const std::vector<Vec2> points = every(thesis_footprint(), 31);
+  std::vector<Vec2> reversed(points.rbegin(), points.rend());
+  for (const char* method : {"vcrf", "exact"}) {
+    Context one(1), two(2);
+    const auto solver = make_method(method, model, tool, {});
+    const Placements a = place_all(*solver, points, one), b = place_all(*solver, reversed, two);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const ToolPose &p = a.positions[i].pose, &q = b.positions[points.size() - 1 - i].pose;
+      EXPECT_EQ(0, std::memcmp(p.torus_center.data(), q.torus_center.data(), 3 * sizeof(double)));
+      EXPECT_EQ(0, std::memcmp(p.axis.data(), q.axis.data(), 3 * sizeof(double)));
+    }
+    EXPECT_EQ(a.counters.evaluations, b.counters.evaluations);
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Surfaces,
+                         OnThesisSurface,
+                         ::testing::Values(testing::Thesis::convex,
+                                           testing::Thesis::concave,
+                                           testing::Thesis::saddle));
+
+// A hollow tool may lean with an inclined plane until its ring lies flat on it, no further.
+TEST(Exact, LeansWithAPlaneUntilTheRingLiesFlat) {
+  const double slope = 0.2;
+  const SurfaceModel model = testing::inclined_plane(slope);
+  const Placement p = place("exact", model, {Vec2(50, 50)}).positions[0];
+  EXPECT_NEAR(p.tilt, std::atan(slope), radians(1e-5));
+  EXPECT_GE(p.clearance_lo, -1e-3);
+}
+
+TEST(Exact, AFlatBottomKeepsUprightOnConvexGround) {
+  const SurfaceModel model = testing::thesis_model(testing::Thesis::convex);
+  Tool flat = testing::thesis_tool();
+  flat.recess = 0;
+  const Placements p = place("exact", model, every(thesis_footprint(), 190), 0, flat);
+  for (const Placement& one : p.positions) EXPECT_GE(one.clearance_hi, -1e-3);
+}
+
+TEST(Exact, SpinKeepsTheFirstContactAndStaysProven) {
+  const SurfaceModel model = testing::thesis_model(testing::Thesis::saddle);
+  const std::vector<Vec2> points{Vec2(54, 60), Vec2(90, 70), Vec2(36, 90)};
+  const Placements straight = place("exact", model, points),
+                   spun = place("exact", model, points, radians(20));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_LT((straight.positions[i].first_contact - spun.positions[i].first_contact).norm(), kContact);
+    EXPECT_GE(spun.positions[i].clearance_lo, -1e-3);
+  }
+}
+
+TEST(Methods, RefuseWhatTheyCannotDo) {
+  const SurfaceModel model = testing::inclined_plane(0);
+  EXPECT_THROW(make_method("vcfr", model, testing::thesis_tool(), {}), std::invalid_argument);
+  MethodOptions spun;
+  spun.spin = 0.1;
+  EXPECT_THROW(make_method("vcrf", model, testing::thesis_tool(), spun), std::invalid_argument);
+  MethodOptions unknown;
+  unknown.numbers["division"] = 3;
+  EXPECT_THROW(make_method("vcrf", model, testing::thesis_tool(), unknown), std::invalid_argument);
+  EXPECT_THROW(make_method("exact", model, Tool{5, 0, 0, 20, {}}, {}), std::invalid_argument);
+}
+
+TEST(Methods, OffThePartIsAStatus) {
+  const SurfaceModel model = testing::inclined_plane(0);
+  for (const char* method : {"vcrf", "exact"})
+    EXPECT_EQ(place(method, model, {Vec2(300, 50)}).positions[0].status, PositionStatus::off_part);
+}
+
+}  // namespace
+}  // namespace mpm
