@@ -1,0 +1,38 @@
+"""Computing an operation: from its faces, tool and properties to a core `Plan`."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from . import hooks
+from .job_spec import job_of
+from .model import model_faces
+
+
+class NativeModuleMissing(Exception):
+    """The add-on was copied but not built."""
+
+
+def compute(op: Any, job: Any) -> tuple[Any, str]:
+    """The plan of operation `op` in CAM job `job`, and its report text.
+
+    Raises InputError (what is wrong with which property), core.errors.Cancelled, NativeModuleMissing."""
+    _require_native()
+    from ..core import planning, report
+
+    part = model_faces(job, op.Base, op.ChordTolerance.Value)
+    spec = job_of(op, part.machined, part.check)
+
+    def call(**watching: Any) -> Any:
+        return planning.plan(spec, faces=part.faces, **watching)
+
+    plan = hooks.run(call)
+    return plan, report.text(plan.report)
+
+
+def _require_native() -> None:
+    try:
+        from .. import _core  # noqa: F401
+    except ImportError as error:
+        reason = f"the native module cannot be loaded ({error})"
+        raise NativeModuleMissing(f"{reason}: build it with './dev build' in the add-on's folder") from None
