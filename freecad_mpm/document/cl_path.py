@@ -15,6 +15,8 @@ import Path
 
 HEADING = re.compile(r"\((\w+), pass (-?\d+)\)")
 RAPID = "rapid"
+SECONDS_PER_MINUTE = 60.0
+# command -> whether it is a rapid
 MOVE_NAMES = {"G0": True, "G00": True, "G1": False, "G01": False}
 
 
@@ -26,6 +28,7 @@ class Moves:
     pass_index: np.ndarray  # (M,)
     tip: np.ndarray  # (M, 3)
     axis: np.ndarray  # (M, 3), unit, from the tip to the spindle
+    feed_mm_per_min: np.ndarray  # (M,); 0 for rapids
 
     def __len__(self) -> int:
         return len(self.kind)
@@ -62,6 +65,7 @@ def from_commands(commands: Iterable[Path.Command]) -> Moves:
     """The moves of a path made by `to_commands`, after any number of saves. Raises ValueError for other motion."""
     kinds: list[str] = []
     passes: list[int] = []
+    feeds: list[float] = []
     rows: list[list[float]] = []
     heading = (RAPID, -1)
     for command in commands:
@@ -70,13 +74,14 @@ def from_commands(commands: Iterable[Path.Command]) -> Moves:
             heading = (match[1], int(match[2]))
         elif command.Name in MOVE_NAMES:
             rows.append(_words(command))
+            feeds.append(command.Parameters.get("F", 0.0) * SECONDS_PER_MINUTE)
             kinds.append(RAPID if MOVE_NAMES[command.Name] else heading[0])
             passes.append(heading[1])
         elif not command.Name.startswith("("):
             raise ValueError(f"command {command.Name}: must be G0, G1 or a comment")
     table = np.array(rows).reshape(-1, 6)
     axis = table[:, 3:] / np.linalg.norm(table[:, 3:], axis=1, keepdims=True)  # stored with six decimals
-    return Moves(kinds, np.array(passes, dtype=int), table[:, :3], axis)
+    return Moves(kinds, np.array(passes, dtype=int), table[:, :3], axis, np.array(feeds))
 
 
 def _words(command: Path.Command) -> list[float]:

@@ -71,10 +71,14 @@ def _check_names(values: dict[str, Any]) -> None:
 
 
 def _assign(op: Any, name: str, value: Any) -> None:
+    choices = op.getEnumerationsOfProperty(name)
+    if choices and value not in choices:
+        raise InputError(f"{name}: must be one of {', '.join(choices)}, got {value!r}")
     try:
         setattr(op, name, value)
-    except (TypeError, ValueError) as error:
-        raise InputError(f"{name}: cannot be {value!r}: {error}") from None
+    except (TypeError, ValueError):
+        kind = op.getTypeIdOfProperty(name).removeprefix("App::Property").lower()
+        raise InputError(f"{name}: must be a {kind}, with its unit when it is a text, got {value!r}") from None
 
 
 def _job_with(doc: Any, objects: list[Any]) -> Any | None:

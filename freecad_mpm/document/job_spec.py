@@ -12,6 +12,19 @@ from . import compat
 
 # The job's part comes from the document, not from a file; the name is what messages and reports show.
 PART_NAME = "{document}: {operation}"
+# The core's keys -> the properties they come from.
+PROPERTY_OF = {
+    "[method] name": "Method",
+    "[method] spin_deg": "Spin",
+    "[method] tilt_max_deg": "TiltMax",
+    "[footprint] direction_deg": "Direction",
+    "[footprint] side_step_mm": "SideStep",
+    "[footprint] forward_step_mm": "ForwardStep",
+    "[footprint] margin_mm": "Margin",
+    "[tool] recess_mm": "Recess",
+    "[tolerance] gouge_mm": "GougeTolerance",
+    "[tolerance] chord_mm": "ChordTolerance",
+}
 SECONDS_PER_MINUTE = 60.0
 PROGRAM_NAME = "MPM{number:02d}"
 
@@ -63,6 +76,13 @@ def post_of(op: Any) -> core.PostSpec:
         tool_number=controller.ToolNumber,
         **{name: value for name, value in given.items() if value > 0},
     )
+
+
+def in_property_names(message: str) -> str:
+    """A message of the core with the properties' names instead of its own keys."""
+    for key, name in PROPERTY_OF.items():
+        message = message.replace(key, name)
+    return message
 
 
 def _footprint(op: Any) -> core.FootprintSpec:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 import FreeCAD
-import Path
 
-from ..core.errors import Cancelled, one_line
+from ..core.errors import Cancelled, InputError
 from . import compat, properties, results
 from .cl_path import Feeds, to_commands
 from .computation import NativeModuleMissing, compute
+from .job_spec import in_property_names
 
 # What Problem says after the user stopped the computation.
 CANCELLED = "cancelled"
@@ -32,23 +32,24 @@ class MultiPointFinish(compat.Stateless, compat.op_base.ObjectOp):
         properties.add_missing(obj)
 
     def opExecute(self, obj: Any) -> None:
-        """Compute the path. A failure leaves Problem, no path, and the operation marked invalid."""
+        """Compute the path. What is the user's to mend ends in Problem and no path, without a traceback."""
         try:
             plan, report = compute(obj, self.job)
-        except Exception as error:
-            _fail(obj, error)
-            raise
-        obj.Problem = ""
-        results.store(obj, plan, report)
-        self.commandlist += to_commands(plan.path, Feeds(self.horizFeed, self.vertFeed))
+        except NativeModuleMissing as error:
+            _fail(obj, str(error))
+            self.commandlist = list(obj.Path.Commands)  # computed where the module was, and still a path
+        except (InputError, Cancelled) as error:
+            _fail(obj, in_property_names(str(error)) or CANCELLED)
+            results.clear(obj)
+        else:
+            obj.Problem = ""
+            results.store(obj, plan, report)
+            self.commandlist += to_commands(plan.path, Feeds(self.horizFeed, self.vertFeed))
 
 
-def _fail(obj: Any, error: Exception) -> None:
-    obj.Problem = CANCELLED if isinstance(error, Cancelled) else one_line(error) or type(error).__name__
-    if not isinstance(error, NativeModuleMissing):  # a path from where the module was is still a path
-        results.clear(obj)
-        obj.Path = Path.Path()
-    FreeCAD.Console.PrintError(f"{obj.Label}: {obj.Problem}\n")
+def _fail(obj: Any, problem: str) -> None:
+    obj.Problem = problem
+    FreeCAD.Console.PrintError(f"{obj.Label}: {problem}\n")
 
 
 def create_operation(name: str, obj: Any = None, parentJob: Any = None) -> Any:

@@ -57,6 +57,9 @@ PROPERTIES = (
     Property("ChordTolerance", "Length", "Tolerance", "Distance between a trimming curve and its polygon", 0.01),
     Property("Machine", "Enumeration", "Program", "The machine the joint values are computed for", "dmu80p", _machines),
     Property("Post", "Enumeration", "Program", "The form of the program text", "dmu80p", _posts),
+    Property("Verdict", "String", "Result", "Whether the plan is good, in one line", "", mode=READ_ONLY),
+    Property("Good", "Bool", "Result", "The plan has no gouge, nothing undecided and no limit exceeded", False,
+             mode=READ_ONLY),  # fmt: skip
     Property("Positions", "Integer", "Result", "Number of tool positions", 0, mode=READ_ONLY),
     Property("WorstClearance", "Distance", "Result", "Smallest distance found from the cutter to a face; negative: gouge",
              0.0, mode=READ_ONLY),  # fmt: skip

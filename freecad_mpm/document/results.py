@@ -18,6 +18,7 @@ def store(obj: Any, plan: Any, report: str) -> None:
     obj.WorstClearance = worst_clearance(plan.clearance)
     obj.Statuses = [f"{name}: {count}" for name, count in counts.most_common()]
     obj.Report = report
+    obj.Verdict, obj.Good = plan.report["verdict"]["line"], plan.report["verdict"]["good"]
     obj.StatusNames = list(counts)
     obj.MoveStatus = _move_status(plan, list(counts))
     obj.FirstContacts, obj.SecondContacts = (_vectors(plan.contacts[:, which]) for which in (0, 1))
@@ -25,7 +26,7 @@ def store(obj: Any, plan: Any, report: str) -> None:
 
 def clear(obj: Any) -> None:
     """Take back everything `store` gave."""
-    obj.Positions, obj.WorstClearance, obj.Report = 0, 0.0, ""
+    obj.Positions, obj.WorstClearance, obj.Report, obj.Verdict, obj.Good = 0, 0.0, "", "", False
     for name in ("Statuses", "StatusNames", "MoveStatus", "FirstContacts", "SecondContacts"):
         setattr(obj, name, [])
 

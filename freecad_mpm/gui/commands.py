@@ -36,15 +36,14 @@ class FinishCommand:
         faces = FreeCADGui.Selection.getSelectionEx()
         doc.openTransaction("Multi-Point Finish")
         try:
-            op = create(doc, faces)
+            create(doc, faces)
         except Exception as error:
             doc.abortTransaction()
             if not isinstance(error, Cancelled):
                 report(error)
             return
         doc.commitTransaction()
-        FreeCADGui.Selection.clearSelection()
-        FreeCADGui.Selection.addSelection(op)
+        FreeCADGui.Selection.clearSelection()  # the faces' highlight would hide the passes on them
 
 
 class WriteProgramCommand:

@@ -42,24 +42,24 @@ class ToolpathNodes:
     """`root` holds everything; `show` fills it. Nothing in it can be picked, so that faces under it can."""
 
     def __init__(self) -> None:
-        self._cuts = _Lines(CUT_WIDTH)
-        self._links = _Lines(LINK_WIDTH)
-        self._axes = _Lines(AXIS_WIDTH)
-        self._first = _Points(FIRST_CONTACT_COLOR)
-        self._second = _Points(SECOND_CONTACT_COLOR)
+        self.cuts = _Lines(CUT_WIDTH)
+        self.links = _Lines(LINK_WIDTH)
+        self.axes = _Lines(AXIS_WIDTH)
+        self.first = _Points(FIRST_CONTACT_COLOR)
+        self.second = _Points(SECOND_CONTACT_COLOR)
         self.root = coin.SoSeparator()
         self.root.addChild(_unpickable())
         self.root.addChild(_unlit())
-        for part in (self._links, self._axes, self._cuts, self._first, self._second):
+        for part in (self.links, self.axes, self.cuts, self.first, self.second):
             self.root.addChild(part.root)
 
     def show(self, moves: Any, statuses: Sequence[str], first: Sequence[Any], second: Sequence[Any]) -> None:
         """Draw `moves` (cl_path.Moves), the status of each ("" for none), and the contact points."""
-        self._cuts.set(*_strips(moves, [_color(k, s) for k, s in zip(moves.kind, statuses)], cuts=True))
-        self._links.set(*_strips(moves, [_color(k, s) for k, s in zip(moves.kind, statuses)], cuts=False))
-        self._axes.set(*_axes(moves))
-        self._first.set(first)
-        self._second.set(second)
+        self.cuts.set(*_strips(moves, [_color(k, s) for k, s in zip(moves.kind, statuses)], cuts=True))
+        self.links.set(*_strips(moves, [_color(k, s) for k, s in zip(moves.kind, statuses)], cuts=False))
+        self.axes.set(*_axes(moves))
+        self.first.set(first)
+        self.second.set(second)
 
 
 class _Lines:
@@ -71,6 +71,11 @@ class _Lines:
         binding.value = coin.SoMaterialBinding.PER_VERTEX
         style.lineWidth = width
         self.root = _group(style, self._colors, binding, self._points, self._line)
+
+    @property
+    def count(self) -> int:
+        """Number of points drawn."""
+        return int(self._points.point.getNum())
 
     def set(self, points: list[list[float]], colors: list[Color], lengths: list[int]) -> None:
         """`lengths`: the number of points of each polyline."""
@@ -86,6 +91,10 @@ class _Points:
         style.pointSize = CONTACT_SIZE
         material.diffuseColor = color
         self.root = _group(style, material, self._points, self._set)
+
+    @property
+    def count(self) -> int:
+        return int(self._points.point.getNum())
 
     def set(self, points: Sequence[Any]) -> None:
         _fill(self._points.point, [list(point) for point in points])
@@ -114,7 +123,7 @@ def _strips(moves: Any, colors: list[Color], cuts: bool) -> tuple[list[Any], lis
 
 def _axes(moves: Any) -> tuple[list[Any], list[Color], list[int]]:
     """A short line along the tool axis at every cut, or at every n-th when there are many."""
-    cuts = np.flatnonzero(np.array(moves.kind) == CUT)
+    cuts = np.array([move for move, kind in enumerate(moves.kind) if kind == CUT], dtype=int)
     cuts = cuts[:: len(cuts) // AXES_MAX + 1]
     if not len(cuts):
         return [], [], []

@@ -24,24 +24,30 @@ class MultiPointFinishViewProvider(compat.op_gui.ViewProvider):
         vobj.Proxy = self
 
     def attach(self, vobj: Any) -> None:
-        """Called for new and for restored operations."""
+        """Called for new and for restored operations, before CAM's own nodes are there."""
         super().attach(vobj)
-        self._nodes = ToolpathNodes()
-        # CAM's own provider decides the display modes: what is to follow Visibility goes under its switch.
-        vobj.SwitchNode.getChild(0).addChild(self._nodes.root)
-        self._draw(vobj.Object)
+        self.nodes = ToolpathNodes()
+        self._mounted = False
 
     def updateData(self, obj: Any, prop: str) -> None:
         super().updateData(obj, prop)
-        if prop in DRAWN and hasattr(self, "_nodes"):
+        if prop in DRAWN:
+            self._mount()
             self._draw(obj)
+
+    def _mount(self) -> None:
+        """Hang our nodes beside the path that CAM draws: CAM owns the display modes, and this follows Visibility."""
+        switch = self.vobj.SwitchNode
+        if not self._mounted and switch.getNumChildren():
+            switch.getChild(0).addChild(self.nodes.root)
+            self._mounted = True
 
     def _draw(self, obj: Any) -> None:
         moves = cl_path.from_commands(obj.Path.Commands)
         names = [*obj.StatusNames, ""]  # NO_STATUS is -1
         codes = obj.MoveStatus
         statuses = [names[code] for code in codes] if len(codes) == len(moves) else [""] * len(moves)
-        self._nodes.show(moves, statuses, obj.FirstContacts, obj.SecondContacts)
+        self.nodes.show(moves, statuses, obj.FirstContacts, obj.SecondContacts)
 
     def getIcon(self) -> str:
         return icons.path("multi_point_finish" if self.Object.Active else "inactive")
@@ -53,6 +59,5 @@ class MultiPointFinishViewProvider(compat.op_gui.ViewProvider):
 
 
 def show(op: Any) -> None:
-    """Give a new operation its view provider, and draw it."""
-    op.ViewObject.Proxy = MultiPointFinishViewProvider(op.ViewObject)
-    op.ViewObject.Proxy.attach(op.ViewObject)
+    """Give a new operation its view provider."""
+    MultiPointFinishViewProvider(op.ViewObject)
