@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
+from ..core.errors import InputError
 from . import hooks
-from .job_spec import job_of
-from .model import model_faces
 
 
-class NativeModuleMissing(Exception):
+class NativeModuleMissing(InputError):
     """The add-on was copied but not built."""
 
 
@@ -17,8 +16,10 @@ def compute(op: Any, job: Any) -> tuple[Any, str]:
     """The plan of operation `op` in CAM job `job`, and its report text.
 
     Raises InputError (what is wrong with which property), core.errors.Cancelled, NativeModuleMissing."""
-    _require_native()
+    require_native()
     from ..core import planning, report
+    from .job_spec import job_of
+    from .model import model_faces
 
     part = model_faces(job, op.Base, op.ChordTolerance.Value)
     spec = job_of(op, part.machined, part.check)
@@ -30,7 +31,8 @@ def compute(op: Any, job: Any) -> tuple[Any, str]:
     return plan, report.text(plan.report)
 
 
-def _require_native() -> None:
+def require_native() -> None:
+    """Raise NativeModuleMissing, with what to do, unless the native module can be used."""
     try:
         from .. import _core  # noqa: F401
     except ImportError as error:

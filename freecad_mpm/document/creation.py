@@ -10,6 +10,7 @@ import FreeCAD
 from ..core.errors import Cancelled, InputError
 from ..core.tools import ToolSpec
 from . import compat, hooks, properties
+from .computation import require_native
 from .model import base_of, model_of, picked_faces, public_object
 from .operation import CANCELLED, create_operation
 from .posts import register
@@ -48,6 +49,7 @@ def create(
     values:          the operation's properties by name, e.g. SideStep="18 mm".
 
     Raises InputError in one line, or Cancelled; what was made until then stays, for the caller's transaction to undo."""
+    require_native()
     picked = picked_faces(faces)
     _check_names(values)
     FreeCAD.setActiveDocument(doc.Name)

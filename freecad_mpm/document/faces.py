@@ -20,6 +20,19 @@ PROBES = (0.25, 0.5, 0.75)
 HALVINGS_MAX = 12
 # A trimming polygon counts as the whole rectangle of its surface within this part of the rectangle's size.
 RECTANGLE_EPSILON = 1e-9
+# FreeCAD's classes of surfaces -> the core's names.
+KINDS = {
+    "Plane": "plane",
+    "Cylinder": "cylinder",
+    "Cone": "cone",
+    "Sphere": "sphere",
+    "Toroid": "torus",
+    "SurfaceOfRevolution": "revolution",
+    "SurfaceOfExtrusion": "extrusion",
+    "BezierSurface": "bezier",
+    "BSplineSurface": "bspline",
+    "OffsetSurface": "offset",
+}
 
 
 def global_shape(obj: Any) -> Any:
@@ -64,13 +77,14 @@ def _face_arrays(face: Any, name: str, chord_mm: float) -> FaceArrays:
     loops = [_polygon(nurbs, wire, surface, chord_mm) for wire in nurbs.Wires]
     return FaceArrays(
         name=name,
-        kind=type(face.Surface).__name__,
+        kind=KINDS.get(type(face.Surface).__name__, "other"),
         degree_u=surface.UDegree,
         degree_v=surface.VDegree,
         knots_u=np.repeat(surface.getUKnots(), surface.getUMultiplicities()),
         knots_v=np.repeat(surface.getVKnots(), surface.getVMultiplicities()),
         poles=poles,
         weights=weights if surface.isURational() or surface.isVRational() else None,
+        reversed=face.Orientation == "Reversed",
         trim_loops=[] if _is_whole(loops, surface.bounds()) else loops,
     )
 

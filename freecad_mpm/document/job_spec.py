@@ -21,6 +21,8 @@ PROPERTY_OF = {
     "[footprint] side_step_mm": "SideStep",
     "[footprint] forward_step_mm": "ForwardStep",
     "[footprint] margin_mm": "Margin",
+    "[link] safe_clearance_mm": "SafeClearance",
+    "[link] approach_distance_mm": "ApproachDistance",
     "[tool] recess_mm": "Recess",
     "[tolerance] gouge_mm": "GougeTolerance",
     "[tolerance] chord_mm": "ChordTolerance",
@@ -39,6 +41,9 @@ def job_of(op: Any, machined: Sequence[str], check: Sequence[str]) -> core.Job:
         tool=tool_of(op),
         footprint=_footprint(op),
         method=core.MethodSpec(name=op.Method, spin_deg=op.Spin.Value, tilt_max_deg=op.TiltMax.Value),
+        link=core.LinkSpec(
+            safe_clearance_mm=op.SafeClearance.Value, approach_distance_mm=op.ApproachDistance.Value
+        ),
         tolerance=core.Tolerance(gouge_mm=op.GougeTolerance.Value, chord_mm=op.ChordTolerance.Value),
         machine=core.MachineSpec(name=op.Machine),
         post=post_of(op),

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..core.errors import InputError
-from ..core.faces import FaceArrays
-from . import compat
-from .faces import global_shape, read_faces
+
+if TYPE_CHECKING:  # needs the native module, without which picking still answers
+    from ..core.faces import FaceArrays
 
 FACE = "Face"
 
@@ -88,6 +88,8 @@ def model_faces(job: Any, base: Sequence[tuple[Any, Sequence[str]]], chord_mm: f
 
 
 def _named_faces(model: Any, chord_mm: float) -> list[FaceArrays]:
+    from .faces import global_shape, read_faces
+
     faces = read_faces(global_shape(model), chord_mm)
     return [replace(face, name=_name(model, face.name)) for face in faces]
 

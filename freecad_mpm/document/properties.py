@@ -6,8 +6,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from ..core.resources import MACHINES
-
 # Raised when the meaning of a stored property changes; `migrate` then turns older documents into the new form.
 SCHEMA_VERSION = 1
 
@@ -25,22 +23,23 @@ class Property:
     mode: int = 0
 
 
+# The choices come from the core, imported only when a property is made: a document must open without the native module.
 def _methods() -> list[str]:
-    return list(_core().METHODS)
+    from ..core.planning import method_names
+
+    return method_names()
 
 
 def _machines() -> list[str]:
-    return sorted(path.stem for path in MACHINES.glob("*.toml"))
+    from ..core import machines
+
+    return machines.names()
 
 
 def _posts() -> list[str]:
-    return ["dmu80p"]
+    from ..core import posts
 
-
-def _core() -> Any:
-    from .. import _core as native
-
-    return native
+    return posts.names()
 
 
 PROPERTIES = (
@@ -52,9 +51,11 @@ PROPERTIES = (
     Property("ForwardStep", "Length", "Footprint", "Distance between positions along a pass, seen from above", 2.0),
     Property("ZigZag", "Bool", "Footprint", "Cut every second pass in the opposite direction", False),
     Property("Margin", "Distance", "Footprint", "Distance kept from the outline of the faces, seen from above", 0.0),
+    Property("SafeClearance", "Length", "Links", "Between the part and the whole tool on the safe plane", 5.0),
+    Property("ApproachDistance", "Length", "Links", "How near to the part a rapid may come", 2.0),
     Property("Recess", "Length", "Cutter", "Depth of the hollow in the cutter's bottom; 0: flat bottom", 0.0),
     Property("GougeTolerance", "Length", "Tolerance", "Depth by which the cutter may enter a face", 0.001),
-    Property("ChordTolerance", "Length", "Tolerance", "Distance between a trimming curve and its polygon", 0.01),
+    Property("ChordTolerance", "Length", "Tolerance", "Distance between the true path and the straight moves of machine and model", 0.01),
     Property("Machine", "Enumeration", "Program", "The machine the joint values are computed for", "dmu80p", _machines),
     Property("Post", "Enumeration", "Program", "The form of the program text", "dmu80p", _posts),
     Property("Verdict", "String", "Result", "Whether the plan is good, in one line", "", mode=READ_ONLY),
