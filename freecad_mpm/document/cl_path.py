@@ -16,6 +16,8 @@ import Path
 HEADING = re.compile(r"\((\w+), pass (-?\d+)\)")
 RAPID = "rapid"
 SECONDS_PER_MINUTE = 60.0
+# Documents keep this many decimals: words rounded from the start give the same program before and after a save.
+STORED_DECIMALS = 6
 # command -> whether it is a rapid
 MOVE_NAMES = {"G0": True, "G00": True, "G1": False, "G01": False}
 
@@ -48,7 +50,7 @@ class Feeds:
 def to_commands(moves: Any, feeds: Feeds) -> list[Path.Command]:
     """`moves`: anything with the fields of Moves, such as a plan's path."""
     commands, heading = [], None
-    rows = np.column_stack((moves.tip, moves.axis)).tolist()
+    rows = np.round(np.column_stack((moves.tip, moves.axis)), STORED_DECIMALS).tolist()
     for kind, number, row in zip(map(str, moves.kind), map(int, moves.pass_index), rows):
         if heading != (kind, number):
             heading = (kind, number)
@@ -57,7 +59,7 @@ def to_commands(moves: Any, feeds: Feeds) -> list[Path.Command]:
         if kind == RAPID:
             commands.append(Path.Command("G0", words))
         else:
-            commands.append(Path.Command("G1", {**words, "F": feeds.of(kind)}))
+            commands.append(Path.Command("G1", {**words, "F": round(feeds.of(kind), STORED_DECIMALS)}))
     return commands
 
 

@@ -78,7 +78,7 @@ def _assign(op: Any, name: str, value: Any) -> None:
         raise InputError(f"{name}: must be one of {', '.join(choices)}, got {value!r}")
     try:
         setattr(op, name, value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, RuntimeError):  # FreeCAD's errors are RuntimeErrors
         kind = op.getTypeIdOfProperty(name).removeprefix("App::Property").lower()
         raise InputError(f"{name}: must be a {kind}, with its unit when it is a text, got {value!r}") from None
 

@@ -20,6 +20,7 @@ PROPERTY_OF = {
     "[footprint] direction_deg": "Direction",
     "[footprint] side_step_mm": "SideStep",
     "[footprint] forward_step_mm": "ForwardStep",
+    "[footprint] steps": "SideStep, ForwardStep",
     "[footprint] margin_mm": "Margin",
     "[link] safe_clearance_mm": "SafeClearance",
     "[link] approach_distance_mm": "ApproachDistance",
@@ -83,8 +84,9 @@ def post_of(op: Any) -> core.PostSpec:
     )
 
 
-def in_property_names(message: str) -> str:
-    """A message of the core with the properties' names instead of its own keys."""
+def in_property_names(message: str, op: Any) -> str:
+    """A message of the core about operation `op` with the properties' names instead of its own keys."""
+    message = message.removeprefix(f"{op.Label}: ")  # the source of its job
     for key, name in PROPERTY_OF.items():
         message = message.replace(key, name)
     return message

@@ -39,7 +39,7 @@ class MultiPointFinish(compat.Stateless, compat.op_base.ObjectOp):
             _fail(obj, str(error))
             self.commandlist = list(obj.Path.Commands)  # computed where the module was, and still a path
         except (InputError, Cancelled) as error:
-            _fail(obj, in_property_names(str(error)) or CANCELLED)
+            _fail(obj, in_property_names(str(error), obj) or CANCELLED)
             results.clear(obj)
         else:
             obj.Problem = ""
