@@ -68,6 +68,15 @@ def button_of(command):
                 return middle_of(bar.widgetForAction(action))
     raise LookupError(command)
 
+def panel_button(which):
+    return middle_of(next(box for box in window.findChildren(QtGui.QDialogButtonBox) if box.isVisible()).button(which))
+
+def unfold(obj):
+    # shows obj in the tree and its properties below
+    Gui.Selection.clearSelection()
+    Gui.Selection.addSelection(obj)
+    Gui.runCommand("Std_TreeSelection", 0)
+
 def message_box():
     return next((w for w in QtGui.QApplication.topLevelWidgets()
                  if isinstance(w, QtGui.QMessageBox) and w.isVisible()), None)
@@ -143,6 +152,11 @@ class FreeCADWindow:
             ["xdotool", "mousemove", near, y, "sleep", "0.4", "mousemove", x, y, "sleep", "0.5", "click", "1", "sleep", "0.3"],
             check=True,
         )  # fmt: skip
+
+    def type(self, text: str) -> None:
+        """Key presses into the widget that has the focus, which then loses it."""
+        subprocess.run(["xdotool", "type", "--delay", "40", text], check=True)
+        subprocess.run(["xdotool", "key", "Tab"], check=True)
 
     def screenshot(self, name: str) -> Path:
         """The whole screen as out/gui/<name>.png, for people to look at."""
