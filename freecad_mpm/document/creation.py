@@ -8,6 +8,7 @@ from typing import Any
 import FreeCAD
 
 from ..core.errors import Cancelled, InputError
+from ..core.job import DEFAULT_POST
 from ..core.tools import ToolSpec
 from . import compat, hooks, properties
 from .computation import require_native
@@ -16,7 +17,6 @@ from .operation import CANCELLED, create_operation
 from .posts import register
 
 OPERATION = "MultiPointFinish"
-DEFAULT_POST = "dmu80p"
 # Feeds of a tool controller made here; CAM's own start at zero, with which nothing moves.
 CUT_FEED = "1000 mm/min"
 PLUNGE_FEED = "300 mm/min"

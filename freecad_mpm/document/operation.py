@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 import FreeCAD
+import Path
 
-from ..core.errors import Cancelled, InputError
+from ..core.errors import Cancelled, InputError, one_line
 from . import compat, properties, results
 from .cl_path import Feeds, to_commands
 from .computation import NativeModuleMissing, compute
@@ -38,13 +39,22 @@ class MultiPointFinish(compat.Stateless, compat.op_base.ObjectOp):
         except NativeModuleMissing as error:
             _fail(obj, str(error))
             self.commandlist = list(obj.Path.Commands)  # computed where the module was, and still a path
-        except (InputError, Cancelled) as error:
-            _fail(obj, in_property_names(str(error), obj) or CANCELLED)
+        except Exception as error:
+            _fail(obj, _problem(obj, error))
             results.clear(obj)
+            obj.Path = Path.Path()
+            if not isinstance(error, (InputError, Cancelled)):
+                raise  # our bug: FreeCAD prints where
         else:
             obj.Problem = ""
             results.store(obj, plan, report)
             self.commandlist += to_commands(plan.path, Feeds(self.horizFeed, self.vertFeed))
+
+
+def _problem(obj: Any, error: Exception) -> str:
+    if isinstance(error, InputError):
+        return in_property_names(str(error), obj)
+    return CANCELLED if isinstance(error, Cancelled) else f"internal error: {type(error).__name__}: {one_line(error)}"
 
 
 def _fail(obj: Any, problem: str) -> None:

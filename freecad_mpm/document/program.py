@@ -3,25 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import FreeCAD
 import numpy as np
 
-from ..core import machines, posts
-from ..core.errors import InputError, blame
-from ..core.machine_path import MachinePath, axis_tolerance_deg, machine_path
+from ..core import posts, shop
+from ..core.errors import InputError
+from ..core.job import Job
 from ..core.output import write_atomically
-from ..core.posts.program import Program, ProgramTool, program_name
+from ..core.plan import Path
+from ..core.stages import Stages
 from . import cl_path, compat
-from .job_spec import tool_of
+from .job_spec import job_of, post_of
+
+NO_POSITION = -1
 
 
 @dataclass(frozen=True)
 class ProgramText:
     text: str  # with the line ends that the control expects
-    file_ending: str  # with its dot
+    file_name: str  # with the ending that the control expects
     warnings: list[str]  # what the reader must know although it does not keep the program from being written
 
 
@@ -36,35 +39,30 @@ def write(op: Any, path: str) -> ProgramText:
 
 def default_name(op: Any) -> str:
     """A file name for the operation's program, with the post's ending."""
-    return program_name(op.Label) + posts.load(op.Post).file_ending
+    return post_of(op).program_name + posts.load(op.Post).file_ending
 
 
 def program_text(ops: Sequence[Any], post: str) -> ProgramText:
-    """The program of operations that share job, tool controller and machine, one after the other."""
+    """The program of operations that share job, tool controller and machine, one after the other.
+
+    It is read back and compared with the path before it is returned; what differs is among the warnings."""
     if not ops:
         raise InputError("there is no active Multi-Point Finish operation to write a program for")
     first = ops[0]
     for op in ops:
         _check_ready(op)
         _check_same(first, op)
-    moves = _machine_path(ops)
-    program = Program(
-        name=program_name(first.Label),
-        machine=machines.load(first.Machine),
-        tool=_program_tool(first),
-        spindle_rpm=float(first.ToolController.SpindleSpeed),
-        moves=moves,
-        coolant=first.CoolantMode != "None",
-        blank=_blank(first),
-    )
-    writer = posts.load(post)
-    with blame(f"{first.Label}:"):
-        return ProgramText(writer.write(program), writer.file_ending, _warnings(ops, moves))
+    job = _job(first, post)
+    path = _path(ops)
+    made = shop.run_machine(job, shop.find_shop(job), path, _box(first), Stages())
+    warnings = [f"{op.Label}: {op.Verdict}" for op in ops if not op.Good]
+    warnings += [f"{first.Machine}: {trouble}" for trouble in made.troubles]
+    return ProgramText(made.program.text, made.program.file_name, warnings)
 
 
 def _check_ready(op: Any) -> None:
-    if op.Problem:
-        raise InputError(f"{op.Label}: there is no up-to-date path: {op.Problem}")
+    if op.Problem or not op.MoveStatus:
+        raise InputError(f"{op.Label}: there is no up-to-date path: {op.Problem or 'recompute it first'}")
     if op.ToolController.HorizFeed.Value <= 0 or op.ToolController.VertFeed.Value <= 0:
         raise InputError(f"{op.ToolController.Label}: the horizontal and vertical feed must be positive")
     if op.ToolController.SpindleSpeed <= 0:
@@ -73,42 +71,35 @@ def _check_ready(op: Any) -> None:
 
 def _check_same(first: Any, op: Any) -> None:
     if op.ToolController != first.ToolController:
-        raise InputError(f"{op.Label}: must have the tool controller of {first.Label}, or the output must be split by tool")
+        raise InputError(f"{op.Label}: must have the tool controller of {first.Label}: a program has one tool")
     if op.Machine != first.Machine:
         raise InputError(f"{op.Label}: must have the machine of {first.Label}, {first.Machine}; it has {op.Machine}")
 
 
-def _machine_path(ops: Sequence[Any]) -> MachinePath:
+def _job(op: Any, post: str) -> Job:
+    job = job_of(op, (), ())
+    return replace(job, post=replace(job.post, name=post))
+
+
+def _path(ops: Sequence[Any]) -> Path:
+    """The stored moves of all operations as the core's path, in their order."""
     moves = [cl_path.from_commands(op.Path.Commands) for op in ops]
-    tolerance = min(axis_tolerance_deg(op.ChordTolerance.Value, tool_of(op).radius_mm) for op in ops)
-    with blame(f"{ops[0].Label}:"):
-        return machine_path(
-            machines.load(ops[0].Machine),
-            np.concatenate([np.array(one.kind) for one in moves]),
-            np.concatenate([one.tip for one in moves]),
-            np.concatenate([one.axis for one in moves]),
-            np.concatenate([one.feed_mm_per_min for one in moves]),
-            axis_tolerance_deg=tolerance,
-        )
+    kind = np.concatenate([one.kind for one in moves])
+    return Path(
+        kind=kind,
+        tip=np.concatenate([one.tip for one in moves]),
+        axis=np.concatenate([one.axis for one in moves]),
+        position=np.full(len(kind), NO_POSITION),
+        pass_index=np.concatenate([one.pass_index for one in moves]),
+        clearance=np.full(len(kind), np.nan),
+        blocked=np.zeros(len(kind), dtype=bool),
+    )
 
 
-def _program_tool(op: Any) -> ProgramTool:
-    tool = tool_of(op)
-    return ProgramTool(op.ToolController.ToolNumber, tool.radius_mm, tool.minor_radius_mm)
-
-
-def _blank(op: Any) -> tuple[np.ndarray, np.ndarray] | None:
-    """Corners of the job's stock."""
-    job = compat.utils.findParentJob(op)
-    if job is None or job.Stock is None or job.Stock.Shape.isNull():
-        return None
-    box = job.Stock.Shape.BoundBox
+def _box(op: Any) -> tuple[np.ndarray, np.ndarray]:
+    """Low and high corner of the job's stock."""
+    box = compat.utils.findParentJob(op).Stock.Shape.BoundBox
     return np.array([box.XMin, box.YMin, box.ZMin]), np.array([box.XMax, box.YMax, box.ZMax])
-
-
-def _warnings(ops: Sequence[Any], moves: MachinePath) -> list[str]:
-    verdicts = [f"{op.Label}: {op.Verdict}" for op in ops if not op.Good]
-    return verdicts + [f"{ops[0].Machine}: {trouble}" for trouble in moves.troubles()]
 
 
 def warn(result: ProgramText) -> None:

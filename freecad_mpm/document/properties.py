@@ -6,6 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from ..core.job import DEFAULT_MACHINE, DEFAULT_METHOD, DEFAULT_POST
+
 # Raised when the meaning of a stored property changes; `migrate` then turns older documents into the new form.
 SCHEMA_VERSION = 1
 
@@ -43,7 +45,7 @@ def _posts() -> list[str]:
 
 
 PROPERTIES = (
-    Property("Method", "Enumeration", "Method", "How each tool position is found", "vcrf", _methods),
+    Property("Method", "Enumeration", "Method", "How each tool position is found", DEFAULT_METHOD, _methods),
     Property("Spin", "Angle", "Method", "Turn of the tilt direction about the vertical, from the feed direction", 0.0),
     Property("TiltMax", "Angle", "Method", "Largest angle between the tool axis and the vertical", 45.0),
     Property("Direction", "Angle", "Footprint", "Feed direction in the XY plane, from the X axis", 90.0),
@@ -56,8 +58,8 @@ PROPERTIES = (
     Property("Recess", "Length", "Cutter", "Depth of the hollow in the cutter's bottom; 0: flat bottom", 0.0),
     Property("GougeTolerance", "Length", "Tolerance", "Depth by which the cutter may enter a face", 0.001),
     Property("ChordTolerance", "Length", "Tolerance", "Distance between the true path and the straight moves of machine and model", 0.01),
-    Property("Machine", "Enumeration", "Program", "The machine the joint values are computed for", "dmu80p", _machines),
-    Property("Post", "Enumeration", "Program", "The form of the program text", "dmu80p", _posts),
+    Property("Machine", "Enumeration", "Program", "The machine the joint values are computed for", DEFAULT_MACHINE, _machines),
+    Property("Post", "Enumeration", "Program", "The form of the program text", DEFAULT_POST, _posts),
     Property("Verdict", "String", "Result", "Whether the plan is good, in one line", "", mode=READ_ONLY),
     Property("Good", "Bool", "Result", "The plan has no gouge, nothing undecided and no limit exceeded", False,
              mode=READ_ONLY),  # fmt: skip

@@ -134,7 +134,7 @@ WRONG_VALUES = [
     ("SideStep", "0 mm", "SideStep: must be a positive number of mm, got 0.0"),
     ("SideStep", "tea", "SideStep: must be a length"),
     ("SideSteps", 5, "SideSteps: no such property; there are Method, "),
-    ("Method", "magic", "Method: must be one of vcrf"),
+    ("Method", "magic", "Method: must be one of .*vcrf"),
     ("Machine", "toaster", "Machine: must be one of "),
     ("TiltMax", "95 deg", "TiltMax: must be "),
     ("SideStep", "0.000001 mm", "^SideStep, ForwardStep: "),
