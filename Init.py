@@ -9,7 +9,9 @@ def _register_posts() -> None:
     try:
         posts.register()
     except ImportError as error:
-        FreeCAD.Console.PrintWarning(f"Multi-Point Machining: CAM cannot be loaded, its posts are not there: {error}\n")
+        FreeCAD.Console.PrintWarning(
+            f"Multi-Point Machining: CAM cannot be loaded, its posts are not there: {error}\n"
+        )
 
 
 _register_posts()

@@ -10,7 +10,9 @@ class MultiPointMachiningWorkbench(FreeCADGui.Workbench):
         from freecad_mpm.gui import icons
 
         self.__class__.MenuText = "Multi-Point Machining"
-        self.__class__.ToolTip = "Five-axis finishing with toroidal cutters that touch the part at several points"
+        self.__class__.ToolTip = (
+            "Five-axis finishing with toroidal cutters that touch the part at several points"
+        )
         self.__class__.Icon = icons.path("workbench")
 
     def Initialize(self):

@@ -72,7 +72,9 @@ def torus_of(bit: Any) -> tuple[float, float]:
         return radius, radius - float(bit.FlatRadius.Value)
     if _shape_name(bit) == "ballend":
         return radius, radius
-    raise ValueError(f"tool '{bit.Label}' must be a bull nose or ball end, but its shape is '{_shape_name(bit)}'")
+    raise ValueError(
+        f"tool '{bit.Label}' must be a bull nose or ball end, but its shape is '{_shape_name(bit)}'"
+    )
 
 
 def _shape_name(bit: Any) -> str:

@@ -48,7 +48,8 @@ def create(
     minor_radius_mm: of the torus, that is the corner.
     values:          the operation's properties by name, e.g. SideStep="18 mm".
 
-    Raises InputError in one line, or Cancelled; what was made until then stays, for the caller's transaction to undo."""
+    Raises InputError in one line, or Cancelled; what was made until then stays, for the caller's transaction to undo.
+    """
     require_native()
     picked = picked_faces(faces)
     _check_names(values)
@@ -80,7 +81,9 @@ def _assign(op: Any, name: str, value: Any) -> None:
         setattr(op, name, value)
     except (TypeError, ValueError, RuntimeError):  # FreeCAD's errors are RuntimeErrors
         kind = op.getTypeIdOfProperty(name).removeprefix("App::Property").lower()
-        raise InputError(f"{name}: must be a {kind}, with its unit when it is a text, got {value!r}") from None
+        raise InputError(
+            f"{name}: must be a {kind}, with its unit when it is a text, got {value!r}"
+        ) from None
 
 
 def _job_with(doc: Any, objects: list[Any]) -> Any | None:
@@ -96,8 +99,9 @@ def _make_job(doc: Any, picked: list[tuple[Any, str]]) -> Any:
     objects = list(dict.fromkeys(public_object(obj) for obj, _ in picked))
     job = compat.job.Create("Job", objects, None)
     job.PostProcessor = DEFAULT_POST
+    # A clone knows nothing of the parts that hold its original.
     for model, obj in zip(job.Model.Group, objects):
-        model.Placement = obj.getGlobalPlacement()  # a clone knows nothing of the parts that hold its original
+        model.Placement = obj.getGlobalPlacement()
     _remove_default_tools(job)
     if FreeCAD.GuiUp:
         compat.show_job(job)

@@ -40,16 +40,15 @@ def global_shape(obj: Any) -> Any:
     shape = Part.getShape(obj)
     if shape.isNull():
         raise InputError(f"'{obj.Label}': must have a shape with faces")
-    outside = obj.getGlobalPlacement().multiply(obj.Placement.inverse()) if hasattr(obj, "Placement") else None
-    if outside is not None and not outside.isIdentity():
-        shape = shape.transformed(outside.toMatrix(), copy=True)
-    return shape
+    outside = obj.getGlobalPlacement().multiply(obj.Placement.inverse())  # of what holds the object
+    return shape if outside.isIdentity() else shape.transformed(outside.toMatrix(), copy=True)
 
 
 def read_faces(shape: Any, chord_mm: float) -> list[FaceArrays]:
     """All faces of `shape` in the shape's frame (mm), named Face1, Face2, ... as FreeCAD names them.
 
-    `chord_mm` is how far the trimming polygons may be from the trimming curves. Raises InputError naming the face."""
+    `chord_mm` is how far the trimming polygons may be from the trimming curves. Raises InputError naming the face.
+    """
     reader = _reader_of_this_kernel()
     if reader is not None:
         return reader(shape.exportBrepToString(), chord_mm)
@@ -59,8 +58,8 @@ def read_faces(shape: Any, chord_mm: float) -> list[FaceArrays]:
 def _reader_of_this_kernel() -> Any:
     """The native BREP reader, or None when it is missing or was built with another OpenCASCADE than FreeCAD's."""
     try:
-        from ..core import part_file
         from .. import _occt
+        from ..core import part_file
     except ImportError:
         return None
     return part_file.read_brep_string if _occt.OCC_VERSION == Part.OCC_VERSION else None
@@ -132,6 +131,6 @@ def _is_whole(loops: list[np.ndarray], bounds: tuple[float, float, float, float]
     u0, u1, v0, v1 = bounds
     low, size = np.array([u0, v0]), np.array([u1 - u0, v1 - v0])
     relative = (loops[0] - low) / size
-    on_border = np.isclose(relative, 0, atol=RECTANGLE_EPSILON) | np.isclose(relative, 1, atol=RECTANGLE_EPSILON)
+    on_border = np.abs(np.abs(relative - 0.5) - 0.5) <= RECTANGLE_EPSILON
     corners = np.unique(relative[on_border.all(axis=1)].round(), axis=0)
     return bool(on_border.any(axis=1).all() and len(corners) == 4)

@@ -35,7 +35,8 @@ PROGRAM_NAME = "MPM{number:02d}"
 def job_of(op: Any, machined: Sequence[str], check: Sequence[str]) -> core.Job:
     """The job of operation `op` with the names of the faces to machine and to keep clear of.
 
-    The set-up frame is FreeCAD's global frame, as in all of CAM. Raises InputError naming the property or the tool."""
+    The set-up frame is FreeCAD's global frame, as in all of CAM. Raises InputError naming the property or the tool.
+    """
     name = PART_NAME.format(document=op.Document.Label, operation=op.Label)
     return core.Job(
         part=core.Part(file=name, faces=tuple(machined), check_faces=tuple(check)),
@@ -69,7 +70,7 @@ def tool_of(op: Any) -> core.ToolSpec:
 
 
 def post_of(op: Any) -> core.PostSpec:
-    """Post, feeds, speed and tool number; a feed or speed that the controller leaves at zero keeps the core's default."""
+    """Post, feeds, speed, tool number; a feed or speed that the controller leaves at zero has the core's default."""
     controller = op.ToolController
     given = {
         "spindle_rpm": float(controller.SpindleSpeed),

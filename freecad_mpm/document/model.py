@@ -28,7 +28,8 @@ class ModelFaces:
 
 def picked_faces(selection: Iterable[Any]) -> list[tuple[Any, str]]:
     """(object, face name) pairs of a selection: pairs (object, "Face1") or (object, ("Face1", ...)), or what
-    FreeCADGui.Selection.getSelectionEx() gives. Raises InputError when there is none, or something else is picked."""
+    FreeCADGui.Selection.getSelectionEx() gives. Raises InputError when there is none, or something else is picked.
+    """
     pairs = [(obj, name) for item in selection for obj, name in _pairs(item)]
     if not pairs:
         raise InputError("no face is picked: pick one or more faces of the part first")

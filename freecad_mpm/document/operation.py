@@ -54,7 +54,11 @@ class MultiPointFinish(compat.Stateless, compat.op_base.ObjectOp):
 def _problem(obj: Any, error: Exception) -> str:
     if isinstance(error, InputError):
         return in_property_names(str(error), obj)
-    return CANCELLED if isinstance(error, Cancelled) else f"internal error: {type(error).__name__}: {one_line(error)}"
+    return (
+        CANCELLED
+        if isinstance(error, Cancelled)
+        else f"internal error: {type(error).__name__}: {one_line(error)}"
+    )
 
 
 def _fail(obj: Any, problem: str) -> None:

@@ -31,7 +31,8 @@ class ProgramText:
 def write(op: Any, path: str) -> ProgramText:
     """Write the program of one operation, with its own post, to `path`: whole or not at all.
 
-    Raises InputError when there is no up-to-date path, or the machine, the post or the file cannot take it."""
+    Raises InputError when there is no up-to-date path, or the machine, the post or the file cannot take it.
+    """
     result = program_text([op], op.Post)
     write_atomically(path, result.text)
     return result
@@ -71,9 +72,13 @@ def _check_ready(op: Any) -> None:
 
 def _check_same(first: Any, op: Any) -> None:
     if op.ToolController != first.ToolController:
-        raise InputError(f"{op.Label}: must have the tool controller of {first.Label}: a program has one tool")
+        raise InputError(
+            f"{op.Label}: must have the tool controller of {first.Label}: a program has one tool"
+        )
     if op.Machine != first.Machine:
-        raise InputError(f"{op.Label}: must have the machine of {first.Label}, {first.Machine}; it has {op.Machine}")
+        raise InputError(
+            f"{op.Label}: must have the machine of {first.Label}, {first.Machine}; it has {op.Machine}"
+        )
 
 
 def _job(op: Any, post: str) -> Job:

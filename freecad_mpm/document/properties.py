@@ -46,37 +46,90 @@ def _posts() -> list[str]:
 
 PROPERTIES = (
     Property("Method", "Enumeration", "Method", "How each tool position is found", DEFAULT_METHOD, _methods),
-    Property("Spin", "Angle", "Method", "Turn of the tilt direction about the vertical, from the feed direction", 0.0),
+    Property(
+        "Spin",
+        "Angle",
+        "Method",
+        "Turn of the tilt direction about the vertical, from the feed direction",
+        0.0,
+    ),
     Property("TiltMax", "Angle", "Method", "Largest angle between the tool axis and the vertical", 45.0),
     Property("Direction", "Angle", "Footprint", "Feed direction in the XY plane, from the X axis", 90.0),
     Property("SideStep", "Length", "Footprint", "Distance between neighbouring passes, seen from above", 5.0),
-    Property("ForwardStep", "Length", "Footprint", "Distance between positions along a pass, seen from above", 2.0),
+    Property(
+        "ForwardStep", "Length", "Footprint", "Distance between positions along a pass, seen from above", 2.0
+    ),
     Property("ZigZag", "Bool", "Footprint", "Cut every second pass in the opposite direction", False),
-    Property("Margin", "Distance", "Footprint", "Distance kept from the outline of the faces, seen from above", 0.0),
-    Property("SafeClearance", "Length", "Links", "Between the part and the whole tool on the safe plane", 5.0),
+    Property(
+        "Margin", "Distance", "Footprint", "Distance kept from the outline of the faces, seen from above", 0.0
+    ),
+    Property(
+        "SafeClearance", "Length", "Links", "Between the part and the whole tool on the safe plane", 5.0
+    ),
     Property("ApproachDistance", "Length", "Links", "How near to the part a rapid may come", 2.0),
     Property("Recess", "Length", "Cutter", "Depth of the hollow in the cutter's bottom; 0: flat bottom", 0.0),
     Property("GougeTolerance", "Length", "Tolerance", "Depth by which the cutter may enter a face", 0.001),
-    Property("ChordTolerance", "Length", "Tolerance", "Distance between the true path and the straight moves of machine and model", 0.01),
-    Property("Machine", "Enumeration", "Program", "The machine the joint values are computed for", DEFAULT_MACHINE, _machines),
+    Property(
+        "ChordTolerance",
+        "Length",
+        "Tolerance",
+        "Distance between the true path and the straight moves of machine and model",
+        0.01,
+    ),
+    Property(
+        "Machine",
+        "Enumeration",
+        "Program",
+        "The machine the joint values are computed for",
+        DEFAULT_MACHINE,
+        _machines,
+    ),
     Property("Post", "Enumeration", "Program", "The form of the program text", DEFAULT_POST, _posts),
     Property("Verdict", "String", "Result", "Whether the plan is good, in one line", "", mode=READ_ONLY),
-    Property("Good", "Bool", "Result", "The plan has no gouge, nothing undecided and no limit exceeded", False,
-             mode=READ_ONLY),  # fmt: skip
+    Property(
+        "Good",
+        "Bool",
+        "Result",
+        "The plan has no gouge, nothing undecided and no limit exceeded",
+        False,
+        mode=READ_ONLY,
+    ),  # fmt: skip
     Property("Positions", "Integer", "Result", "Number of tool positions", 0, mode=READ_ONLY),
-    Property("WorstClearance", "Distance", "Result", "Smallest distance found from the cutter to a face; negative: gouge",
-             0.0, mode=READ_ONLY),  # fmt: skip
+    Property(
+        "WorstClearance",
+        "Distance",
+        "Result",
+        "Smallest distance found from the cutter to a face; negative: gouge",
+        0.0,
+        mode=READ_ONLY,
+    ),  # fmt: skip
     Property("Statuses", "StringList", "Result", "How many positions have each status", [], mode=READ_ONLY),
     Property("Report", "String", "Result", "The plan in words", "", mode=READ_ONLY),
-    Property("Problem", "String", "Result", "Why there is no up-to-date path; empty: there is", "", mode=READ_ONLY),
-    Property("MoveStatus", "IntegerList", "Stored", "Status of each move as an index into StatusNames; -1: none", [],
-             mode=HIDDEN),  # fmt: skip
+    Property(
+        "Problem", "String", "Result", "Why there is no up-to-date path; empty: there is", "", mode=READ_ONLY
+    ),
+    Property(
+        "MoveStatus",
+        "IntegerList",
+        "Stored",
+        "Status of each move as an index into StatusNames; -1: none",
+        [],
+        mode=HIDDEN,
+    ),  # fmt: skip
     Property("StatusNames", "StringList", "Stored", "The names MoveStatus refers to", [], mode=HIDDEN),
-    Property("FirstContacts", "VectorList", "Stored", "Where the cutter touches the faces first (P)", [], mode=HIDDEN),
+    Property(
+        "FirstContacts",
+        "VectorList",
+        "Stored",
+        "Where the cutter touches the faces first (P)",
+        [],
+        mode=HIDDEN,
+    ),
     Property("SecondContacts", "VectorList", "Stored", "Where it touches them at once (Q)", [], mode=HIDDEN),
-    Property("SchemaVersion", "Integer", "Stored", "Version of these properties", SCHEMA_VERSION, mode=HIDDEN),
+    Property(
+        "SchemaVersion", "Integer", "Stored", "Version of these properties", SCHEMA_VERSION, mode=HIDDEN
+    ),
 )
-
 
 
 def settings() -> list[Property]:

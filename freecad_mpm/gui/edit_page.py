@@ -90,14 +90,24 @@ def _quantity_field(one: properties.Property) -> Field:
     box = FreeCADGui.UiLoader().createWidget("Gui::QuantitySpinBox")
     box.setProperty("unit", QUANTITY_UNITS[one.type])
     return Field(
-        one.name, box, lambda: box.property("rawValue"), lambda v: box.setProperty("rawValue", v), box.editingFinished
+        one.name,
+        box,
+        lambda: box.property("rawValue"),
+        lambda v: box.setProperty("rawValue", v),
+        box.editingFinished,
     )
 
 
 def _choice_field(obj: Any, one: properties.Property) -> Field:
     box = QtGui.QComboBox()
     box.addItems(obj.getEnumerationsOfProperty(one.name))
-    return Field(one.name, box, box.currentText, lambda v: box.setCurrentIndex(box.findText(v)), box.currentIndexChanged)
+    return Field(
+        one.name,
+        box,
+        box.currentText,
+        lambda v: box.setCurrentIndex(box.findText(v)),
+        box.currentIndexChanged,
+    )
 
 
 def _flag_field(one: properties.Property) -> Field:

@@ -16,7 +16,8 @@ COARSE = {"SideStep": "15 mm", "ForwardStep": "6 mm"}
 def wave(width: float = 60, depth: float = 40, height: float = 2.0) -> Any:
     """A B-spline surface over 0..width, 0..depth, as FreeCAD's Part.BSplineSurface."""
     rows = [
-        [Vector(x, y, height * math.sin(x / 12) * math.cos(y / 15)) for y in steps(depth)] for x in steps(width)
+        [Vector(x, y, height * math.sin(x / 12) * math.cos(y / 15)) for y in steps(depth)]
+        for x in steps(width)
     ]
     surface = Part.BSplineSurface()
     surface.interpolate(rows)

@@ -16,7 +16,9 @@ def quantity(value: float) -> Any:
 
 
 def bit(**values: Any) -> Any:
-    return SimpleNamespace(Label="T", **{k: quantity(v) if isinstance(v, (int, float)) else v for k, v in values.items()})
+    return SimpleNamespace(
+        Label="T", **{k: quantity(v) if isinstance(v, (int, float)) else v for k, v in values.items()}
+    )
 
 
 def test_flat_radius_is_the_radius_of_the_flat() -> None:

@@ -92,7 +92,9 @@ def test_all_other_faces_are_kept_clear(doc: Any, block: Any, op: Any) -> None:
 
 
 def test_properties_take_units(doc: Any, block: Any) -> None:
-    op = freecad_mpm.create(doc, [(block, TOP)], SideStep="1/2 in", ForwardStep=8.0, TiltMax="0.5 rad", ZigZag=True)
+    op = freecad_mpm.create(
+        doc, [(block, TOP)], SideStep="1/2 in", ForwardStep=8.0, TiltMax="0.5 rad", ZigZag=True
+    )
     assert op.SideStep.Value == pytest.approx(12.7)
     assert op.TiltMax.Value == pytest.approx(math.degrees(0.5))
 

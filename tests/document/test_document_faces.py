@@ -59,7 +59,9 @@ def points_inside(face: faces.FaceArrays, count: int = 12) -> np.ndarray:
     """Points (N, 3) of the arrays' surface at parameters that its trim loops keep."""
     surface = native(face)
     u0, u1, v0, v1 = surface.domain
-    grid = np.stack(np.meshgrid(np.linspace(u0, u1, count + 2)[1:-1], np.linspace(v0, v1, count + 2)[1:-1]), -1)
+    grid = np.stack(
+        np.meshgrid(np.linspace(u0, u1, count + 2)[1:-1], np.linspace(v0, v1, count + 2)[1:-1]), -1
+    )
     inside = np.array([uv for uv in grid.reshape(-1, 2) if is_inside(face.trim_loops, uv)])
     return surface.evaluate(inside[:, 0], inside[:, 1])[:, 0]
 
@@ -165,5 +167,3 @@ def test_a_placed_part_gives_its_faces_where_they_stand(doc: Any, route: str) ->
 def test_an_object_without_a_shape_is_refused(doc: Any) -> None:
     with pytest.raises(InputError, match="'Empty': must have a shape"):
         faces.global_shape(doc.addObject("Part::Feature", "Empty"))
-
-

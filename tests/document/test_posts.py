@@ -91,7 +91,9 @@ def test_operations_of_another_kind_are_refused(op: Any, job: Any) -> None:
     module = pytest.importorskip("freecad_mpm.document.posts.dmu80p_post")
     foreign = op.Document.addObject("Path::FeaturePython", "Engrave")
     foreign.addProperty("App::PropertyLink", "ToolController")
-    with pytest.raises(InputError, match="Engrave: the post dmu80p writes Multi-Point Finish operations only"):
+    with pytest.raises(
+        InputError, match="Engrave: the post dmu80p writes Multi-Point Finish operations only"
+    ):
         module.export([op, foreign], "-", "")
 
 

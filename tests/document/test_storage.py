@@ -101,7 +101,12 @@ def run_with_the_add_on_installed(script: Path, home: Path) -> str:
     assert command, "FreeCAD is missing"
     environment = {"HOME": str(home), "PATH": os.environ["PATH"], "LC_ALL": "C.UTF-8"}
     done = subprocess.run(
-        [command, str(script)], env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=120
+        [command, str(script)],
+        env=environment,
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        timeout=120,
     )
     return done.stdout + done.stderr
 

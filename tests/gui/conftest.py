@@ -22,7 +22,9 @@ def part(window: FreeCADWindow) -> Iterator[None]:
     """A document with one block whose top, Face1, is a free-form face; the 3D view shows it."""
     window.run(MAKE_PART)
     yield
-    window.run("Gui.Control.closeDialog()\nfor name in list(FreeCAD.listDocuments()): FreeCAD.closeDocument(name)")
+    window.run(
+        "Gui.Control.closeDialog()\nfor name in list(FreeCAD.listDocuments()): FreeCAD.closeDocument(name)"
+    )
 
 
 MAKE_PART = """

@@ -1,6 +1,7 @@
 """Runs inside FreeCAD's window: executes every script that appears in the folder MPM_DROP, and writes its answer.
 
-A script sets `result`, which comes back as JSON. Scripts also run while a dialog is open, as its loop keeps the timer."""
+A script sets `result`, which comes back as JSON. Scripts run while a dialog is open too, as its loop keeps the
+timer."""
 
 import json
 import os

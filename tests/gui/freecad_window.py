@@ -87,7 +87,10 @@ ARRANGE = """
 window.showMaximized()
 settle(1000)
 for dock in window.findChildren(QtGui.QDockWidget):
-    dock.setVisible(dock.objectName() in ("Combo View", "Model", "Tasks"))
+    beside = dock.objectName() in ("Combo View", "Model", "Tasks")
+    dock.setVisible(beside)
+    if beside:
+        window.resizeDocks([dock], [420], QtCore.Qt.Horizontal)
 settle(300)
 """
 
@@ -102,7 +105,12 @@ class FreeCADWindow:
     def __enter__(self) -> FreeCADWindow:
         self._make_profile()
         self._drop.mkdir()
-        environment = {**os.environ, "HOME": str(self._home), "MPM_DROP": str(self._drop), "LIBGL_ALWAYS_SOFTWARE": "1"}
+        environment = {
+            **os.environ,
+            "HOME": str(self._home),
+            "MPM_DROP": str(self._drop),
+            "LIBGL_ALWAYS_SOFTWARE": "1",
+        }
         environment.pop("PYTHONPATH", None)
         self._manager = subprocess.Popen(["openbox"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         with open(self.log, "wb") as log:
@@ -140,18 +148,19 @@ class FreeCADWindow:
     def wait(self, condition: Any, timeout_s: float = ANSWER_S) -> None:
         end = time.monotonic() + timeout_s
         while not condition():
-            assert self._process.poll() is None, f"FreeCAD ended:\n{self.log.read_text(errors='replace')[-4000:]}"
-            assert time.monotonic() < end, f"no answer in {timeout_s} s:\n{self.log.read_text(errors='replace')[-4000:]}"
+            assert (
+                self._process.poll() is None
+            ), f"FreeCAD ended:\n{self.log.read_text(errors='replace')[-4000:]}"
+            assert (
+                time.monotonic() < end
+            ), f"no answer in {timeout_s} s:\n{self.log.read_text(errors='replace')[-4000:]}"
             time.sleep(POLL_S)
 
     def click(self, position: list[int]) -> None:
         """A real mouse click. It comes in two steps: a jump alone would preselect nothing."""
-        x, y = (str(round(value)) for value in position)
-        near = str(round(position[0]) - 3)
-        subprocess.run(
-            ["xdotool", "mousemove", near, y, "sleep", "0.4", "mousemove", x, y, "sleep", "0.5", "click", "1", "sleep", "0.3"],
-            check=True,
-        )  # fmt: skip
+        x, y = (round(value) for value in position)
+        steps = f"mousemove {x - 3} {y} sleep 0.4 mousemove {x} {y} sleep 0.5 click 1 sleep 0.3"
+        subprocess.run(["xdotool", *steps.split()], check=True)
 
     def type(self, text: str) -> None:
         """Key presses into the widget that has the focus, which then loses it."""

@@ -45,14 +45,18 @@ def dialog_text(window: FreeCADWindow) -> str:
 
 def test_a_click_on_a_face_and_the_command_make_an_operation(window: FreeCADWindow, part: None) -> None:
     click_top_face(window)
-    picked = window.run("result = [[s.ObjectName, *s.SubElementNames] for s in Gui.Selection.getSelectionEx()]")
+    picked = window.run(
+        "result = [[s.ObjectName, *s.SubElementNames] for s in Gui.Selection.getSelectionEx()]"
+    )
     assert picked == [["Block", window.run("result = top")]]
     window.screenshot("1-face-picked")
     press(window, "MPM_Finish")
     window.wait(lambda: window.run(FINISHED))
     assert window.run("result = op.Problem") == ""
     assert window.run("result = op.Positions") > 100
-    assert window.run("result = [job.Operations.Group == [op] for job in doc.Objects if job.Name == 'Job']") == [True]
+    assert window.run(
+        "result = [job.Operations.Group == [op] for job in doc.Objects if job.Name == 'Job']"
+    ) == [True]
     drawn = window.run(DRAWN)
     assert min(drawn.values()) > 100
     window.run("unfold(op)\nsettle(500)")
@@ -132,7 +136,11 @@ def test_cancel_in_the_progress_dialog_leaves_nothing(window: FreeCADWindow, par
 
 
 def edit_page(window: FreeCADWindow) -> None:
-    window.run("Gui.ActiveDocument.setEdit(op)\nsettle(500)\npage = op.ViewObject.Proxy.panel.featurePages[0]")
+    window.run(
+        "from freecad_mpm.gui.edit_page import EditPage\n"
+        "Gui.ActiveDocument.setEdit(op)\nsettle(500)\n"
+        "page = next(p for p in op.ViewObject.Proxy.panel.featurePages if isinstance(p, EditPage))"
+    )
 
 
 def test_a_value_typed_into_the_page_recomputes(window: FreeCADWindow, part: None) -> None:
@@ -156,7 +164,10 @@ def test_cancel_in_the_page_changes_nothing(window: FreeCADWindow, part: None) -
     edit_page(window)
     window.click(window.run("result = panel_button(QtGui.QDialogButtonBox.Cancel)"))
     window.wait(lambda: not window.run("result = Gui.Control.activeDialog()"))
-    assert window.run("result = [doc.getObject('MultiPointFinish') is op, op.ForwardStep.Value]") == [True, 8.0]
+    assert window.run("result = [doc.getObject('MultiPointFinish') is op, op.ForwardStep.Value]") == [
+        True,
+        8.0,
+    ]
 
 
 def test_only_faces_can_be_picked_while_the_page_is_open(window: FreeCADWindow, part: None) -> None:
@@ -171,7 +182,9 @@ def test_only_faces_can_be_picked_while_the_page_is_open(window: FreeCADWindow, 
     assert window.run(pick.format(name="Edge1")) == []
 
 
-def test_write_program_command_asks_for_a_file_and_writes(window: FreeCADWindow, part: None, tmp_path: Path) -> None:
+def test_write_program_command_asks_for_a_file_and_writes(
+    window: FreeCADWindow, part: None, tmp_path: Path
+) -> None:
     target = tmp_path / "program.I"
     window.run(COARSE + answer_file_dialog(target))
     press(window, "MPM_WriteProgram")
@@ -181,13 +194,12 @@ def test_write_program_command_asks_for_a_file_and_writes(window: FreeCADWindow,
 
 def answer_file_dialog(target: Path) -> str:
     """The native file dialog would block; its answer is given for it."""
-    return (
-        "from freecad_mpm.gui import commands\n"
-        f"commands._ask_file = lambda name: {str(target)!r}"
-    )
+    return "from freecad_mpm.gui import commands\n" f"commands._ask_file = lambda name: {str(target)!r}"
 
 
-def test_freecads_post_process_command_writes_the_same(window: FreeCADWindow, part: None, tmp_path: Path) -> None:
+def test_freecads_post_process_command_writes_the_same(
+    window: FreeCADWindow, part: None, tmp_path: Path
+) -> None:
     stock, ours = tmp_path / "stock.I", tmp_path / "ours.I"
     command = window.run(
         COARSE + "from freecad_mpm.document import compat, program\n"

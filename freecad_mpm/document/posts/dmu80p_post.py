@@ -26,7 +26,9 @@ def program_of(objects: list[Any]) -> str:
 
     for obj in objects:
         if hasattr(obj, "ToolController") and not is_operation(obj):
-            raise InputError(f"{obj.Label}: the post {POST} writes Multi-Point Finish operations only; deactivate it")
+            raise InputError(
+                f"{obj.Label}: the post {POST} writes Multi-Point Finish operations only; deactivate it"
+            )
     result = program.program_text([obj for obj in objects if is_operation(obj) and obj.Active], POST)
     program.warn(result)
     return result.text
