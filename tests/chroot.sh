@@ -71,7 +71,7 @@ run_tests() {
   shift 2
   status=0
   inside sh -c 'cd /mpm && exec env PYTHONPATH=/mpm MPM_REQUIRE_FREECAD=1 \
-    MPM_IN_FREECAD="$(printf "%s\n" pytest "$@" tests/document)" freecadcmd scripts/in_freecad.py </dev/null' sh "$@" \
+    MPM_IN_FREECAD="$(printf "%s\n" pytest -W ignore::DeprecationWarning "$@" tests/document)" freecadcmd scripts/in_freecad.py </dev/null' sh "$@" \
     || status=$?
   inside sh -c 'cd /mpm && exec xvfb-run -a -s "-screen 0 1600x1000x24 -dpi 96 +extension GLX" \
     /usr/bin/python3 -m pytest "$@" tests/gui' sh "$@" || status=$?

@@ -34,6 +34,8 @@ class MultiPointFinishViewProvider(compat.op_gui.ViewProvider):
         if prop in DRAWN:
             self._mount()
             self._draw(obj)
+        if prop == "Problem":
+            self.vobj.signalChangeIcon()
 
     def _mount(self) -> None:
         """Hang our nodes beside the path that CAM draws: CAM owns the display modes, and this follows Visibility."""
@@ -50,7 +52,9 @@ class MultiPointFinishViewProvider(compat.op_gui.ViewProvider):
         self.nodes.show(moves, statuses, obj.FirstContacts, obj.SecondContacts)
 
     def getIcon(self) -> str:
-        return icons.path("multi_point_finish" if self.Object.Active else "inactive")
+        if not self.Object.Active:
+            return icons.path("inactive")
+        return icons.path("problem" if self.Object.Problem else "multi_point_finish")
 
     def getSelectionFactory(self) -> Any:
         from .selection import select_faces

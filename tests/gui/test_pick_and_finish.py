@@ -60,6 +60,8 @@ def test_a_click_on_a_face_and_the_command_make_an_operation(window: FreeCADWind
     drawn = window.run(DRAWN)
     assert min(drawn.values()) > 100
     window.run("unfold(op)\nsettle(500)")
+    window.screenshot("3-properties")
+    window.run("Gui.Selection.clearSelection()\nsettle(500)")
     window.screenshot("2-operation")
 
 
@@ -128,11 +130,20 @@ def test_cancel_in_the_progress_dialog_leaves_nothing(window: FreeCADWindow, par
     find = "box = window.findChild(QtGui.QProgressDialog)\nresult = box is not None and box.isVisible()"
     window.wait(lambda: window.run(find))
     window.run("settle(500)")
-    window.screenshot("3-progress")
+    window.screenshot("4-progress")
     window.click(window.run("result = middle_of(box.findChild(QtGui.QPushButton))"))
     window.wait(lambda: not window.run("result = doc.HasPendingTransaction"))
     window.run("properties.PROPERTIES = coarse")
     assert window.run("result = [obj.Name for obj in doc.Objects]") == ["Block"]
+
+
+def test_an_operation_without_a_path_wears_a_warning_and_recovers(window: FreeCADWindow, part: None) -> None:
+    icon = "result = os.path.basename(op.ViewObject.Proxy.getIcon())"
+    assert window.run(COARSE + icon) == "multi_point_finish.svg"
+    assert window.run("op.SideStep = 0\ndoc.recompute()\n" + icon) == "problem.svg"
+    assert set(window.run(DRAWN).values()) == {0}
+    assert window.run("op.SideStep = 20\ndoc.recompute()\n" + icon) == "multi_point_finish.svg"
+    assert min(window.run(DRAWN).values()) > 0
 
 
 def edit_page(window: FreeCADWindow) -> None:
@@ -146,7 +157,7 @@ def edit_page(window: FreeCADWindow) -> None:
 def test_a_value_typed_into_the_page_recomputes(window: FreeCADWindow, part: None) -> None:
     before = window.run(COARSE + "result = op.Positions")
     edit_page(window)
-    window.screenshot("4-edit")
+    window.screenshot("5-edit")
     window.run(
         "field = next(f for f in page._fields if f.name == 'ForwardStep')\n"
         "field.widget.setFocus()\nfield.widget.selectAll()"
