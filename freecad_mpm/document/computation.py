@@ -1,0 +1,40 @@
+"""Computing an operation: from its faces, tool and properties to a core `Plan`."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ..core.errors import InputError
+from . import hooks
+
+
+class NativeModuleMissing(InputError):
+    """The add-on was copied but not built."""
+
+
+def compute(op: Any, job: Any) -> tuple[Any, str]:
+    """The plan of operation `op` in CAM job `job`, and its report text.
+
+    Raises InputError (what is wrong with which property), core.errors.Cancelled, NativeModuleMissing."""
+    require_native()
+    from ..core import planning, report
+    from .job_spec import job_of
+    from .model import model_faces
+
+    part = model_faces(job, op.Base, op.ChordTolerance.Value)
+    spec = job_of(op, part.machined, part.check)
+
+    def call(**watching: Any) -> Any:
+        return planning.plan(spec, faces=part.faces, **watching)
+
+    plan = hooks.run(call)
+    return plan, report.text(plan.report)
+
+
+def require_native() -> None:
+    """Raise NativeModuleMissing, with what to do, unless the native module can be used."""
+    try:
+        from .. import _core  # noqa: F401
+    except ImportError as error:
+        reason = f"the native module cannot be loaded ({error})"
+        raise NativeModuleMissing(f"{reason}: build it with './dev build' in the add-on's folder") from None

@@ -1,0 +1,106 @@
+"""The workbench's commands."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import FreeCAD
+import FreeCADGui
+from PySide import QtGui
+
+from ..core.errors import Cancelled, InputError, one_line
+from . import icons
+
+TITLE = "Multi-Point Machining"
+
+
+class FinishCommand:
+    """Pick faces -> an operation in the Job."""
+
+    name = "MPM_Finish"
+
+    def GetResources(self) -> dict[str, str]:
+        return {
+            "Pixmap": icons.path("multi_point_finish"),
+            "MenuText": "Multi-Point Finish",
+            "ToolTip": "Finish the picked faces with a toroidal cutter that touches them at several points at once",
+        }
+
+    def IsActive(self) -> bool:
+        return FreeCAD.ActiveDocument is not None
+
+    def Activated(self) -> None:
+        from ..document.creation import create
+
+        doc = FreeCAD.ActiveDocument
+        faces = FreeCADGui.Selection.getSelectionEx()
+        doc.openTransaction("Multi-Point Finish")
+        try:
+            create(doc, faces)
+        except Exception as error:
+            doc.abortTransaction()
+            if not isinstance(error, Cancelled):
+                report(error)
+            return
+        doc.commitTransaction()
+        FreeCADGui.Selection.clearSelection()  # the faces' highlight would hide the passes on them
+
+
+class WriteProgramCommand:
+    """The operation's program -> a file."""
+
+    name = "MPM_WriteProgram"
+
+    def GetResources(self) -> dict[str, str]:
+        return {
+            "Pixmap": icons.path("write_program"),
+            "MenuText": "Write Program",
+            "ToolTip": "Write the program of the selected Multi-Point Finish operation to a file",
+        }
+
+    def IsActive(self) -> bool:
+        return FreeCAD.ActiveDocument is not None
+
+    def Activated(self) -> None:
+        from ..document import program
+
+        try:
+            op = _operation()
+            path = _ask_file(program.default_name(op))
+            if path:
+                program.write(op, path)
+                FreeCAD.Console.PrintMessage(f"{op.Label}: program written to {path}\n")
+        except InputError as error:
+            report(error)
+
+
+COMMANDS = (FinishCommand, WriteProgramCommand)
+
+
+def register() -> list[str]:
+    """Make the commands known to FreeCAD; returns their names in the order of the toolbar."""
+    for command in COMMANDS:
+        FreeCADGui.addCommand(command.name, command())
+    return [command.name for command in COMMANDS]
+
+
+def report(error: Exception) -> None:
+    """Tell the user in a dialog; the report view keeps the line."""
+    text = one_line(error) if isinstance(error, InputError) else f"{type(error).__name__}: {one_line(error)}"
+    FreeCAD.Console.PrintError(f"{TITLE}: {text}\n")
+    QtGui.QMessageBox.warning(FreeCADGui.getMainWindow(), TITLE, text)
+
+
+def _operation() -> Any:
+    """The selected operation, or the only one of the document."""
+    from ..document.operation import is_operation
+
+    chosen = [obj for obj in FreeCADGui.Selection.getSelection() if is_operation(obj)]
+    found = chosen or [obj for obj in FreeCAD.ActiveDocument.Objects if is_operation(obj)]
+    if len(found) != 1:
+        raise InputError(f"select one Multi-Point Finish operation; there are {len(found)}")
+    return found[0]
+
+
+def _ask_file(name: str) -> str:
+    return QtGui.QFileDialog.getSaveFileName(FreeCADGui.getMainWindow(), TITLE, name)[0]
