@@ -178,6 +178,7 @@ def link(job: Job, scene: Scene, positions: Positions, stages: Stages) -> Path:
     options = _core.LinkOptions(
         safe_clearance_mm=spec.safe_clearance_mm,
         approach_distance_mm=spec.approach_distance_mm,
+        gouge_mm=job.tolerance.gouge_mm,
         cut_length_max_mm=CUT_LENGTH_STEPS * job.footprint.forward_step_mm,
     )
     with blame(f"{job.source}: [{spec.table}]"):
