@@ -99,10 +99,12 @@ def check_method(job: Job) -> None:
 
 
 def prepare(job: Job, faces: Sequence[FaceArrays] | None, stages: Stages) -> Scene:
-    """Read the part unless its faces are given, and build the native model and tool."""
+    """Read the part unless its faces are given, and build the native model and tool.
+
+    Trim polygons may be off by the gouge tolerance: a border that they cut short is a gouge nobody sees."""
     if faces is None:
         with blame(f"{job.source}: [{job.part.table}] file:"):
-            faces = stages.run("read", read_part, job.part.file, job.tolerance.chord_mm)
+            faces = stages.run("read", read_part, job.part.file, job.tolerance.gouge_mm)
     return stages.run("model", build_scene, job, faces)
 
 
@@ -176,6 +178,7 @@ def link(job: Job, scene: Scene, positions: Positions, stages: Stages) -> Path:
     options = _core.LinkOptions(
         safe_clearance_mm=spec.safe_clearance_mm,
         approach_distance_mm=spec.approach_distance_mm,
+        gouge_mm=job.tolerance.gouge_mm,
         cut_length_max_mm=CUT_LENGTH_STEPS * job.footprint.forward_step_mm,
     )
     with blame(f"{job.source}: [{spec.table}]"):
