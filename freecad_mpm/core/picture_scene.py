@@ -17,7 +17,7 @@ from .surface_mesh import quads
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-QUAD_BUDGET = 9000
+QUAD_BUDGET = 30_000
 AXES_SHOWN = 260  # about so many tool axes are drawn
 AXIS_LENGTH = 0.07  # of the scene's diagonal
 ELEVATION_DEG, AZIMUTH_DEG = 38.0, -58.0
@@ -33,9 +33,7 @@ def fill(
     upright = _upright(plan)
     patches = quads(faces, QUAD_BUDGET)
     _set_view(axes, plan, patches, upright)
-    for face, corners in zip(faces, patches):
-        colour = style.FACE if machined is None or face.name in machined else style.CHECK_FACE
-        _add_face(axes, corners, colour, upright)
+    _add_faces(axes, [_colour(face, machined) for face in faces], patches, upright)
     _add_links(axes, plan)
     _add_tool_axes(axes, plan)
     _add_cuts(axes, plan)
@@ -71,13 +69,21 @@ def _set_view(axes: Any, plan: Plan, patches: Sequence[Floats], upright: Floats)
         axis._axinfo["grid"].update(color=(0.88, 0.88, 0.88, 1.0), linewidth=0.5)
 
 
-def _add_face(axes: Any, corners: Floats, colour: tuple[float, float, float], upright: Floats) -> None:
-    if not len(corners):
-        return
-    light = _light(corners, upright)
-    colours = np.clip(np.outer(light, colour), 0.0, 1.0)
+def _colour(face: FaceArrays, machined: Collection[str] | None) -> tuple[float, float, float]:
+    return style.FACE if machined is None or face.name in machined else style.CHECK_FACE
+
+
+def _add_faces(
+    axes: Any, colours: Sequence[tuple[float, float, float]], patches: Sequence[Floats], upright: Floats
+) -> None:
+    """All faces as one collection: only within a collection does Matplotlib draw what is farther away first."""
+    shades = [
+        np.clip(np.outer(_light(corners, upright), colour), 0.0, 1.0)
+        for colour, corners in zip(colours, patches)
+    ]
+    corners, shade = np.concatenate(list(patches)), np.concatenate(shades)
     axes.add_collection3d(
-        Poly3DCollection(corners, facecolors=colours, edgecolors=colours, linewidths=0.3, zorder=1)
+        Poly3DCollection(corners, facecolors=shade, edgecolors=shade, linewidths=0.3, zorder=1)
     )
 
 
