@@ -6,6 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from freecad_mpm import _core
+
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md")])
 LINK = re.compile(r"\]\((?!https?:|#)([^)#\s]+)")
@@ -94,6 +96,13 @@ def test_the_ci_runs_the_test_command_of_the_readme() -> None:
 def test_every_package_has_a_reason() -> None:
     for line in (ROOT / "packages.txt").read_text().splitlines():
         assert not line or line.startswith("# ") or re.fullmatch(r"[a-z0-9.+-]+ +# \S.*", line), line
+
+
+def test_the_readme_lists_the_methods_that_there_are() -> None:
+    listed = re.findall(
+        r"^\| `(\w+)` \|.*\| (proven|sampled) \|$", (ROOT / "README.md").read_text(), re.MULTILINE
+    )
+    assert dict(listed) == {name: method["guarantee"] for name, method in _core.METHODS.items()}
 
 
 def python_examples() -> list[str]:
