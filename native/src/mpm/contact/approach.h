@@ -38,6 +38,7 @@ class Tilt {
   Vec3 velocity(const Vec3& s) const { return insert_.u1.cross(s - insert_.center); }
   Mat3 velocity_slope() const;
   Vec3 acceleration(const Vec3& s) const { return insert_.u1.cross(velocity(s)); }
+  const Vec3& axis() const { return insert_.u1; }
 
  private:
   const Tool& tool_;

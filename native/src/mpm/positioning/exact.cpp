@@ -23,7 +23,10 @@ constexpr double kFirstBackStep = 1e-6;  // mm or rad, doubled until the body is
 constexpr double kMostBackSteps = 1e3;
 constexpr int kBisections = 50;
 constexpr double kMerged = 0.02;  // mm: a second contact nearer than this is the first
-constexpr double kNoTilt = 1e-9;  // rad
+constexpr double kNearLimit =
+    0.01;  // rad: a second contact this close to the curvature limit may have rivals
+constexpr double kBeside[] = {-0.15, -0.05, 0.05, 0.15};  // cutter radii from P along the ring
+constexpr double kNoTilt = 1e-9;                          // rad
 
 struct Start {
   std::uint32_t face;
@@ -70,6 +73,11 @@ class Exact final : public Method {
   double body_arrival(const Approach& approach, double x, const Vec3& s) const;
   template <class Approach>
   Certificate first_touch(const Approach& approach, double& x, Touch& touch, Counters& counters) const;
+  void look_beside(const Tilt& approach,
+                   const Touch& first,
+                   const SurfacePoint& p,
+                   Touch& second,
+                   Counters& counters) const;
   void tilt(const Touch& first,
             const std::vector<Start>& starts,
             Placement& placement,
@@ -180,6 +188,26 @@ void Exact::finish(Placement& placement, const Certificate& certificate) const {
   if (certificate.verdict == Verdict::undecided) placement.status = PositionStatus::undecided;
 }
 
+// A second contact that is about to merge with the first comes only a little before the curvature limit, and
+// no start's own arrival need lead to it: searches from both sides of P along the ring.
+void Exact::look_beside(const Tilt& approach,
+                        const Touch& first,
+                        const SurfacePoint& p,
+                        Touch& second,
+                        Counters& counters) const {
+  const ParamBox& domain = model_.faces()[first.face].surface.domain();
+  const Vec3 along = approach.axis();
+  Eigen::Matrix<double, 3, 2> jacobian;
+  jacobian << p.su, p.sv;
+  const Vec2 step = jacobian.colPivHouseholderQr().solve(along);
+  for (double part : kBeside) {
+    const double u = std::clamp(first.at.u + part * tool_.radius() * step.x(), domain.u0, domain.u1);
+    const double v = std::clamp(first.at.v + part * tool_.radius() * step.y(), domain.v0, domain.v1);
+    const Touch touch = refine(approach, first.face, u, v, counters);
+    if (touch.at.value < second.at.value) second = touch;
+  }
+}
+
 void Exact::tilt(const Touch& first,
                  const std::vector<Start>& starts,
                  Placement& placement,
@@ -195,6 +223,8 @@ void Exact::tilt(const Touch& first,
   const Tilt approach(tool_, insert);
   double x = limit;
   Touch second = best_start(approach, starts, x, counters);
+  if (curvature <= tilt_max_ && !(second.at.value < curvature - kNearLimit))
+    look_beside(approach, first, p, second, counters);
   if (second.found() && second.at.value < x)
     x = second.at.value;
   else
