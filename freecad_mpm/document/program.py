@@ -11,10 +11,8 @@ import numpy as np
 
 from ..core import posts, shop
 from ..core.errors import InputError
-from ..core.job import Job
 from ..core.output import write_atomically
-from ..core.plan import Path
-from ..core.stages import Stages
+from ..core.plan import Path, ProgramFile
 from . import cl_path, compat
 from .job_spec import job_of, post_of
 
@@ -53,9 +51,7 @@ def program_text(ops: Sequence[Any], post: str) -> ProgramText:
     for op in ops:
         _check_ready(op)
         _check_same(first, op)
-    job = _job(first, post)
-    path = _path(ops)
-    made = shop.run_machine(job, shop.find_shop(job), path, _box(first), Stages())
+    made = _make(first, post, _path(ops))
     warnings = [f"{op.Label}: {op.Verdict}" for op in ops if not op.Good]
     warnings += [f"{first.Machine}: {trouble}" for trouble in made.troubles]
     return ProgramText(made.program.text, made.program.file_name, warnings)
@@ -81,9 +77,16 @@ def _check_same(first: Any, op: Any) -> None:
         )
 
 
-def _job(op: Any, post: str) -> Job:
+def _make(op: Any, post: str, path: Path) -> shop.Made:
+    """What the core's shop makes of a path with the settings of `op`, which alone knows of coolant."""
     job = job_of(op, (), ())
-    return replace(job, post=replace(job.post, name=post))
+    job = replace(job, post=replace(job.post, name=post))
+    place = shop.find_shop(job)
+    joints = shop.move_machine(job, place, path)
+    program = replace(shop.describe(job, place, joints, _box(op)), coolant=op.CoolantMode != "None")
+    text = place.post.write(program)
+    file = ProgramFile(program.name + place.post.file_ending, text)
+    return shop.Made(joints, file, shop.check_text(text, program, path))
 
 
 def _path(ops: Sequence[Any]) -> Path:

@@ -45,6 +45,13 @@ def test_the_program_takes_the_tool_where_the_path_does(op: Any, job: Any, tmp_p
     assert trip.tip_error_mm <= TIP_MM and trip.axis_error_deg <= AXIS_DEG
 
 
+def test_coolant_is_the_operations(op: Any) -> None:
+    op.CoolantMode = "None"
+    assert " M8 *" not in program.program_text([op], "dmu80p").text
+    op.CoolantMode = "Flood"
+    assert " M8 *" in program.program_text([op], "dmu80p").text
+
+
 def test_two_operations_make_one_program(doc: Any, block: Any, op: Any, job: Any, tmp_path: Path) -> None:
     alone = len(post_process(job, tmp_path / "one.I"))
     freecad_mpm.create(doc, [(block, TOP)], Direction=0, **COARSE)
