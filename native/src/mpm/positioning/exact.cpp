@@ -196,7 +196,7 @@ void Exact::look_beside(const Tilt& approach,
                         Touch& second,
                         Counters& counters) const {
   const ParamBox& domain = model_.faces()[first.face].surface.domain();
-  const Vec3 along = approach.axis();
+  const Vec3& along = approach.axis();
   Eigen::Matrix<double, 3, 2> jacobian;
   jacobian << p.su, p.sv;
   const Vec2 step = jacobian.colPivHouseholderQr().solve(along);
