@@ -46,7 +46,7 @@ create() {
   cp /etc/resolv.conf "$root/etc/resolv.conf"
   echo 'path-exclude=/usr/share/doc/*' > "$root/etc/dpkg/dpkg.cfg.d/nodoc"
   inside apt-get update
-  # shellcheck disable=SC2086 - a list of words
+  # shellcheck disable=SC2086  # a list of words
   inside apt-get install -y --no-install-recommends $packages
   inside apt-get clean
 }
