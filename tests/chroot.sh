@@ -46,7 +46,7 @@ create() {
   cp /etc/resolv.conf "$root/etc/resolv.conf"
   echo 'path-exclude=/usr/share/doc/*' > "$root/etc/dpkg/dpkg.cfg.d/nodoc"
   inside apt-get update
-  # shellcheck disable=SC2086 - a list of words
+  # shellcheck disable=SC2086  # a list of words
   inside apt-get install -y --no-install-recommends $packages
   inside apt-get clean
 }
@@ -70,6 +70,7 @@ run_tests() {
   copy_checkout
   shift 2
   status=0
+  # shellcheck disable=SC2016  # "$@" is the inner shell's
   inside sh -c 'cd /mpm && exec env PYTHONPATH=/mpm MPM_REQUIRE_FREECAD=1 \
     MPM_IN_FREECAD="$(printf "%s\n" pytest -W ignore::DeprecationWarning "$@" tests/document)" freecadcmd scripts/in_freecad.py </dev/null' sh "$@" \
     || status=$?

@@ -63,7 +63,8 @@ class ProgramReport:
             f"Moves: {moves}",
             *(f"Axis {name}: {_use(use)}" for name, use in self.axes.items()),
             f"Largest rotary step in a feed move (deg): {steps}",
-            f"Pole: {self.pole_passages} passages under {POLE_ZONE_DEG:g} deg, nearest {self.nearest_to_pole_deg:.3f} deg",
+            f"Pole: {self.pole_passages} passages under {POLE_ZONE_DEG:g} deg, "
+            f"nearest {self.nearest_to_pole_deg:.3f} deg",
             f"Text parsed back: {self._errors()}",
             f"Checks: {'passed' if not self.findings else f'{len(self.findings)} findings'}",
             *(f"  {finding}" for finding in listed),
