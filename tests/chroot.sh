@@ -70,7 +70,7 @@ run_tests() {
   copy_checkout
   shift 2
   status=0
-  # shellcheck disable=SC2016  # the inner shell expands it
+  # shellcheck disable=SC2016  # "$@" is the inner shell's
   inside sh -c 'cd /mpm && exec env PYTHONPATH=/mpm MPM_REQUIRE_FREECAD=1 \
     MPM_IN_FREECAD="$(printf "%s\n" pytest -W ignore::DeprecationWarning "$@" tests/document)" freecadcmd scripts/in_freecad.py </dev/null' sh "$@" \
     || status=$?
