@@ -5,11 +5,12 @@ Every field is made with `key(check, default)`; values are checked whether they 
 from __future__ import annotations
 
 import difflib
-import tomllib
 from collections.abc import Iterable, Mapping
 from dataclasses import MISSING, dataclass, field, fields
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar
+
+import tomllib
 
 from .checks import Check
 from .errors import InputError

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from machine_samples import directions, dmu80p, program_of, two_passes, with_rotary
 
 from freecad_mpm.core import program_report
 from freecad_mpm.core.cl_walk import Walk, angle_deg
@@ -18,7 +19,6 @@ from freecad_mpm.core.program_check import (
     check_state,
 )
 from freecad_mpm.core.program_reader import read
-from machine_samples import directions, dmu80p, program_of, two_passes, with_rotary
 
 KIND, TIP, AXIS, FEED = two_passes()
 GOOD = write(program_of(KIND, TIP, AXIS, FEED))
