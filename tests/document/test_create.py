@@ -117,6 +117,19 @@ def test_a_model_in_a_moved_part_is_machined_where_it_stands(doc: Any, block: An
     assert cl_path.from_commands(op.Path.Commands).tip[:, 0].min() > 150
 
 
+def test_a_face_of_a_bodys_feature_is_machined_on_the_body(doc: Any) -> None:
+    body = doc.addObject("PartDesign::Body", "Body")
+    box = doc.addObject("PartDesign::AdditiveBox", "Box")
+    box.Length, box.Width, box.Height = 60, 40, 15
+    body.addObject(box)
+    doc.recompute()
+    top = next(f"Face{i}" for i, face in enumerate(box.Shape.Faces, 1) if face.CenterOfMass.z > 14)
+    op = freecad_mpm.create(doc, [(box, top)], **COARSE)
+    (job,) = compat.job.Instances()
+    assert job.Proxy.baseObject(job, op.Base[0][0]) == body
+    assert op.Positions > 20
+
+
 WRONG_FACES = {
     "no face is picked": [],
     "pick faces, not Edge1": ["Edge1"],
