@@ -21,11 +21,8 @@ VERSION_WORDS = re.compile(
 
 def test_freecad_reads_the_manifest() -> None:
     manifest = FreeCAD.Metadata(str(ROOT / "package.xml"))
-    assert (manifest.Name, manifest.Version, manifest.FreeCADMin) == (
-        "Multi-Point Machining",
-        "0.1.0",
-        "0.20",
-    )
+    assert (manifest.Name, manifest.Version) == ("Multi-Point Machining", "0.1.0")
+    assert str(manifest.FreeCADMin).startswith("0.20")
     assert [one["name"] for one in manifest.License] == ["LGPL-2.1-or-later"]
     (workbench,) = manifest.Content["workbench"]
     assert f"class {workbench.Classname}(" in (ROOT / "InitGui.py").read_text()
