@@ -7,8 +7,10 @@ from typing import Any
 
 import FreeCAD
 
+from ..core import tools
 from ..core.errors import Cancelled, InputError
 from ..core.job import DEFAULT_POST
+from ..core.resources import TOOLS
 from ..core.tools import ToolSpec
 from . import compat, hooks, properties
 from .computation import require_native
@@ -21,8 +23,8 @@ OPERATION = "MultiPointFinish"
 CUT_FEED = "1000 mm/min"
 PLUNGE_FEED = "300 mm/min"
 SPINDLE_RPM = 8000.0
-# Of the controller that is made when neither the caller nor the job has one.
-DEFAULT_MAJOR_RADIUS_MM, DEFAULT_MINOR_RADIUS_MM = 6.7, 6.0
+# The shipped tool that is taken when neither the caller nor the job has one.
+DEFAULT_TOOL = "thesis"
 # A tool bit keeps its diameter and flat radius in decimals; radii this near are the same tool.
 SAME_RADIUS_MM = 1e-6
 
@@ -43,7 +45,7 @@ def create(
     faces:           pairs (object, "Face1") or (object, ("Face1", "Face2")), or getSelectionEx().
     job:             the CAM job; default: the one with the faces' objects in its model, else a new one.
     tool_controller: of the job, with a bull nose or ball end; default: one of the job with the radii that follow
-                     (any, when none are given), else a new one.
+                     (any, when none are given), else a new one: with those radii, or the shipped hollow cutter.
     major_radius_mm: of the circle on which the torus' centres lie.
     minor_radius_mm: of the torus, that is the corner.
     values:          the operation's properties by name, e.g. SideStep="18 mm".
@@ -55,7 +57,12 @@ def create(
     _check_names(values)
     FreeCAD.setActiveDocument(doc.Name)
     job = job or _job_with(doc, [obj for obj, _ in picked]) or _make_job(doc, picked)
-    controller = tool_controller or _controller(job, major_radius_mm, minor_radius_mm)
+    radii = major_radius_mm, minor_radius_mm
+    controller = tool_controller or _find_controller(job, *radii)
+    if controller is None:
+        tool = _new_tool(*radii)
+        controller = _make_controller(job, tool)
+        values.setdefault("Recess", tool.recess_mm)  # CAM's tools know of no hollow
     op = _make_operation(job, controller)
     op.Base = base_of(job, picked)
     for name, value in values.items():
@@ -115,14 +122,9 @@ def _remove_default_tools(job: Any) -> None:
         job.Document.removeObject(controller.Name)
 
 
-def _controller(job: Any, major_mm: float | None, minor_mm: float | None) -> Any:
-    """A controller of the job whose tool has those radii (None: any toroidal one), else a new one."""
-    for controller in job.Tools.Group:
-        if _fits(controller, major_mm, minor_mm):
-            return controller
-    major = DEFAULT_MAJOR_RADIUS_MM if major_mm is None else major_mm
-    minor = DEFAULT_MINOR_RADIUS_MM if minor_mm is None else minor_mm
-    return _make_controller(job, major, minor)
+def _find_controller(job: Any, major_mm: float | None, minor_mm: float | None) -> Any | None:
+    """A controller of the job whose tool has those radii (None: any toroidal one), or None."""
+    return next((one for one in job.Tools.Group if _fits(one, major_mm, minor_mm)), None)
 
 
 def _fits(controller: Any, major_mm: float | None, minor_mm: float | None) -> bool:
@@ -134,10 +136,23 @@ def _fits(controller: Any, major_mm: float | None, minor_mm: float | None) -> bo
     return corner > 0 and same_major and (minor_mm is None or abs(corner - minor_mm) <= SAME_RADIUS_MM)
 
 
-def _make_controller(job: Any, major_mm: float, minor_mm: float) -> Any:
-    tool = ToolSpec(major_radius_mm=major_mm, minor_radius_mm=minor_mm)  # checks the radii
-    label = f"Bull nose D{2 * tool.radius_mm:g} R{minor_mm:g}"
-    bit = compat.make_bull_nose(job.Document, label, tool.radius_mm, minor_mm)
+def _new_tool(major_mm: float | None, minor_mm: float | None) -> ToolSpec:
+    """The shipped tool, or one with the radii that are given."""
+    shipped = tools.load(TOOLS / f"{DEFAULT_TOOL}.toml")
+    if major_mm is None and minor_mm is None:
+        return shipped
+    return ToolSpec(
+        major_radius_mm=shipped.major_radius_mm if major_mm is None else major_mm,
+        minor_radius_mm=shipped.minor_radius_mm if minor_mm is None else minor_mm,
+    )
+
+
+def _make_controller(job: Any, tool: ToolSpec) -> Any:
+    label = tool.name or f"Bull nose D{2 * tool.radius_mm:g} R{tool.minor_radius_mm:g}"
+    bit = compat.make_bull_nose(job.Document, label, tool.radius_mm, tool.minor_radius_mm)
+    bit.CuttingEdgeHeight = tool.flute_length_mm
+    bit.Length = tool.flute_length_mm + sum(one.length_mm for one in tool.shank)
+    bit.ShankDiameter = 2 * (tool.shank[0].bottom_radius_mm if tool.shank else tool.radius_mm)
     controller = compat.controller.Create(f"TC: {label}", tool=bit, toolNumber=job.Proxy.nextToolNumber())
     controller.HorizFeed, controller.VertFeed, controller.SpindleSpeed = CUT_FEED, PLUNGE_FEED, SPINDLE_RPM
     job.Proxy.addToolController(controller)

@@ -8,6 +8,7 @@ from typing import Any
 
 from ..core import job as core
 from ..core.errors import InputError
+from ..core.tools import Segment
 from . import compat
 
 # The job's part comes from the document, not from a file; the name is what messages and reports show.
@@ -25,6 +26,7 @@ PROPERTY_OF = {
     "[link] safe_clearance_mm": "SafeClearance",
     "[link] approach_distance_mm": "ApproachDistance",
     "[tool] recess_mm": "Recess",
+    "[tool] flute_length_mm": "the tool's CuttingEdgeHeight",
     "[tolerance] gouge_mm": "GougeTolerance",
     "[tolerance] chord_mm": "ChordTolerance",
 }
@@ -64,7 +66,8 @@ def tool_of(op: Any) -> core.ToolSpec:
         major_radius_mm=radius - corner,
         minor_radius_mm=corner,
         recess_mm=op.Recess.Value,
-        flute_length_mm=_flute_length(bit),
+        flute_length_mm=_length(bit, "CuttingEdgeHeight"),
+        shank=_shank(bit),
         name=bit.Label,
     )
 
@@ -103,8 +106,17 @@ def _footprint(op: Any) -> core.FootprintSpec:
     )
 
 
-def _flute_length(bit: Any) -> float:
-    return float(bit.CuttingEdgeHeight.Value) if hasattr(bit, "CuttingEdgeHeight") else 0.0
+def _shank(bit: Any) -> tuple[Segment, ...]:
+    """The cylinder above the flutes; CAM's tools have no holder."""
+    radius, length = _length(bit, "ShankDiameter") / 2, _length(bit, "Length") - _length(
+        bit, "CuttingEdgeHeight"
+    )
+    return (Segment(radius, radius, length),) if radius > 0 and length > 0 else ()
+
+
+def _length(bit: Any, name: str) -> float:
+    """A length of the tool bit in mm, 0 when its shape has no such parameter."""
+    return float(getattr(bit, name).Value) if hasattr(bit, name) else 0.0
 
 
 def _number_in(name: str) -> int:

@@ -9,6 +9,8 @@ import numpy as np
 from FreeCAD import Vector
 
 NO_STATUS = -1
+# Of the worst clearance in mm; documents keep no rounding errors.
+CLEARANCE_DECIMALS = 9
 
 
 def store(obj: Any, plan: Any, report: str) -> None:
@@ -34,7 +36,7 @@ def clear(obj: Any) -> None:
 def worst_clearance(clearance: np.ndarray) -> float:
     """The smallest upper bound of the positions' clearances, mm; 0 when no position has one."""
     known = clearance[:, 1][np.isfinite(clearance[:, 1])]
-    return float(known.min()) if len(known) else 0.0
+    return round(float(known.min()), CLEARANCE_DECIMALS) if len(known) else 0.0
 
 
 def _move_status(plan: Any, names: list[str]) -> list[int]:

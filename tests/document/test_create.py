@@ -23,6 +23,26 @@ def test_without_a_job_one_is_made_with_a_bull_nose(doc: Any, block: Any) -> Non
     assert job.PostProcessor == "dmu80p"
 
 
+def test_the_tool_made_without_asking_is_the_shipped_hollow_one(doc: Any, block: Any) -> None:
+    from freecad_mpm.core import tools
+    from freecad_mpm.core.resources import TOOLS
+    from freecad_mpm.document.job_spec import tool_of
+
+    op = freecad_mpm.create(doc, [(block, TOP)], **COARSE)
+    shipped, ours = tools.load(TOOLS / "thesis.toml"), tool_of(op)
+    for name in ("major_radius_mm", "minor_radius_mm", "recess_mm", "flute_length_mm", "shank"):
+        assert getattr(ours, name) == pytest.approx(getattr(shipped, name)), name
+
+
+def test_the_shank_of_the_tool_is_kept_clear_too(op: Any) -> None:
+    from freecad_mpm.document.job_spec import tool_of
+
+    bit = op.ToolController.Tool
+    bit.CuttingEdgeHeight, bit.Length, bit.ShankDiameter = 20, 50, 18
+    (shank,) = tool_of(op).shank
+    assert (shank.bottom_radius_mm, shank.top_radius_mm, shank.length_mm) == (9, 9, 30)
+
+
 def test_the_path_covers_the_picked_face_and_ends_clear_of_the_part(op: Any, block: Any) -> None:
     moves = cl_path.from_commands(op.Path.Commands)
     box, cuts = block.Shape.BoundBox, [kind == "cut" for kind in moves.kind]
@@ -115,6 +135,19 @@ def test_a_model_in_a_moved_part_is_machined_where_it_stands(doc: Any, block: An
     doc.recompute()
     op = freecad_mpm.create(doc, [(block, TOP)], **COARSE)
     assert cl_path.from_commands(op.Path.Commands).tip[:, 0].min() > 150
+
+
+def test_a_face_of_a_bodys_feature_is_machined_on_the_body(doc: Any) -> None:
+    body = doc.addObject("PartDesign::Body", "Body")
+    box = doc.addObject("PartDesign::AdditiveBox", "Box")
+    box.Length, box.Width, box.Height = 60, 40, 15
+    body.addObject(box)
+    doc.recompute()
+    top = next(f"Face{i}" for i, face in enumerate(box.Shape.Faces, 1) if face.CenterOfMass.z > 14)
+    op = freecad_mpm.create(doc, [(box, top)], **COARSE)
+    (job,) = compat.job.Instances()
+    assert job.Proxy.baseObject(job, op.Base[0][0]) == body
+    assert op.Positions > 20
 
 
 WRONG_FACES = {
