@@ -21,7 +21,8 @@ def compute(op: Any, job: Any) -> tuple[Any, str]:
     from .job_spec import job_of
     from .model import model_faces
 
-    part = model_faces(job, op.Base, op.ChordTolerance.Value)
+    # A trimming polygon farther from its curve than the gouge tolerance would hide gouges at the border.
+    part = model_faces(job, op.Base, op.GougeTolerance.Value)
     spec = job_of(op, part.machined, part.check)
 
     def call(**watching: Any) -> Any:
