@@ -32,7 +32,7 @@ class Moves(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Machined:
-    """Heights `z` (rows, columns), mm of the set-up frame, at x = lo[0] + column * cell_mm, y = lo[1] + row * cell_mm."""
+    """Heights `z` (rows, columns), mm, over the points lo + (column, row) * cell_mm of the set-up frame."""
 
     lo: Floats
     cell_mm: float
