@@ -185,8 +185,7 @@ Certificate Exact::first_touch(const Approach& approach, double& x, Touch& touch
 void Exact::finish(Placement& placement, const Certificate& certificate) const {
   placement.clearance_lo = certificate.lo;
   placement.clearance_hi = certificate.hi;
-  // What the tool cannot reach without cutting in (a holder in the way, a budget spent) is no position to cut
-  // at.
+  // What the tool cannot reach without cutting in (holder in the way, budget spent) is no place to cut.
   if (certificate.verdict != Verdict::free) placement.status = PositionStatus::undecided;
 }
 
