@@ -51,8 +51,9 @@ class Stages:
         """A native call with a `context` argument, through which it reports progress and is stopped."""
         context = _core.Context(self._threads)
         with self._timed(stage), ThreadPoolExecutor(max_workers=1) as worker:
-            future = worker.submit(function, *arguments, context=context, **named)
+            # A Ctrl-C may come at any moment from here on; the worker must not be waited for without being cancelled.
             try:
+                future = worker.submit(function, *arguments, context=context, **named)
                 while not wait([future], POLL_S).done:
                     self._look_up(stage, context)
             except BaseException:
