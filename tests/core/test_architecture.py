@@ -60,7 +60,7 @@ FORBIDDEN = [
     (rules.python_imports_follow_the_table, "freecad_mpm/document/a.py", "import FreeCADGui"),
     (rules.reader_never_uses_the_writers, "freecad_mpm/core/program_reader.py", "from .posts import dmu80p"),
     (rules.reader_never_uses_the_writers, "freecad_mpm/core/program_reader.py", "from . import helper"),
-    (rules.stands_alone, "docs/a.md", "see ../shared/design.md"),
+    (rules.stands_alone, "notes/a.md", "see ../shared/design.md"),
     (rules.stands_alone, "dev", "cat /work/notes"),
 ]
 
@@ -106,7 +106,7 @@ ALLOWED = [
         "from .posts.program import Block",
     ),
     (rules.stands_alone, "tests/core/test_a.py", 'DATA = "../shared/data"'),
-    (rules.stands_alone, "docs/a.md", "a shared vocabulary"),
+    (rules.stands_alone, "notes/a.md", "a shared vocabulary"),
 ]
 
 ALL_RULES = list(dict.fromkeys(rule for rule, _, _ in FORBIDDEN))

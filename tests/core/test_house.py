@@ -4,6 +4,7 @@ import re
 import subprocess
 from pathlib import Path
 
+import architecture
 import pytest
 
 from freecad_mpm import _core
@@ -12,6 +13,7 @@ ROOT = Path(__file__).resolve().parents[2]
 PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md")])
 LINK = re.compile(r"\]\((?!https?:|#)([^)#\s]+)")
 SHELL_BLOCK = re.compile(r"```sh\n(.*?)```", re.DOTALL)
+PAGE = re.compile(r"\bdocs/[\w/-]+\.md\b")
 INLINE_COMMAND = re.compile(r"`(\./dev [^`]+|python3 -m freecad_mpm [^`]+|scripts/[^`]+)`")
 
 
@@ -107,10 +109,30 @@ def test_the_readme_lists_the_methods_that_there_are() -> None:
     assert dict(listed) == {name: method["guarantee"] for name, method in _core.METHODS.items()}
 
 
-def python_examples() -> list[str]:
-    return re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text(), re.DOTALL)
+def test_the_readme_leads_to_every_page() -> None:
+    readme = ROOT / "README.md"
+    linked = {(ROOT / link).resolve() for link in LINK.findall(readme.read_text())}
+    pages = {page for page in PAGES if page.parent in (ROOT, ROOT / "docs")} - {readme}
+    assert pages <= linked
 
 
-@pytest.mark.parametrize("example", python_examples())
-def test_python_examples_compile(example: str) -> None:
-    compile(example, "README.md", "exec")
+def test_pages_that_the_code_names_exist() -> None:
+    """A comment or message that sends the reader to docs/… sends nobody astray."""
+    sources = [
+        path for path in architecture.text_files(ROOT) if path.suffix in {".h", ".cpp", ".py", ".toml", ".sh"}
+    ]
+    named = {(path, page) for path in sources for page in PAGE.findall(path.read_text())}
+    assert [f"{path}: {page}" for path, page in sorted(named) if not (ROOT / page).exists()] == []
+    assert named
+
+
+def python_example(word: str) -> str:
+    """The README's Python example that contains the word."""
+    examples = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text(), re.DOTALL)
+    return next(example for example in examples if word in example)
+
+
+def test_the_python_example_runs(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.chdir(ROOT)
+    exec(compile(python_example("freecad_mpm.plan"), "README.md", "exec"), {})
+    assert "(760, 3) (760, 3) (760, 2, 3)" in capsys.readouterr().out
