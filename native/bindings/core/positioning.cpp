@@ -44,7 +44,38 @@ py::dict to_dict(const Placements& placements, const Tool& tool) {
   return result;
 }
 
-py::dict place(const std::string& method_name,
+// A method made ready for one model and tool: what it has to prepare is done once.
+class Positioner {
+ public:
+  Positioner(const std::string& method,
+             const SurfaceModel& model,
+             const Tool& tool,
+             double tilt_max_deg,
+             double spin_deg,
+             const std::map<std::string, double>& options)
+      : model_(model), tool_(tool) {
+    py::gil_scoped_release release;
+    method_ = make_method(method, model, tool_, {radians(tilt_max_deg), radians(spin_deg), options});
+  }
+
+  py::dict place(const DoubleArray& points, bool judge, Context& context) const {
+    const std::vector<Vec2> at = to_vectors<Vec2>(points, "points");
+    Placements placements;
+    {
+      py::gil_scoped_release release;
+      placements = place_all(*method_, at, context);
+      if (judge) judge_by_sampling(model_, tool_, placements, context);
+    }
+    return to_dict(placements, tool_);
+  }
+
+ private:
+  const SurfaceModel& model_;
+  Tool tool_;
+  std::unique_ptr<Method> method_;
+};
+
+py::dict place(const std::string& method,
                const SurfaceModel& model,
                const Tool& tool,
                const DoubleArray& points,
@@ -53,16 +84,7 @@ py::dict place(const std::string& method_name,
                const std::map<std::string, double>& options,
                bool judge,
                Context& context) {
-  const std::vector<Vec2> at = to_vectors<Vec2>(points, "points");
-  Placements placements;
-  {
-    py::gil_scoped_release release;
-    const auto method =
-        make_method(method_name, model, tool, {radians(tilt_max_deg), radians(spin_deg), options});
-    placements = place_all(*method, at, context);
-    if (judge) judge_by_sampling(model, tool, placements, context);
-  }
-  return to_dict(placements, tool);
+  return Positioner(method, model, tool, tilt_max_deg, spin_deg, options).place(points, judge, context);
 }
 
 py::array_t<double> sampled_clearance(const SurfaceModel& model,
@@ -115,6 +137,30 @@ void bind_positioning(py::module_& m) {
   py::list names;
   for (const char* name : kPositionStatusNames) names.append(name);
   m.attr("POSITION_STATUS") = py::tuple(names);
+  py::class_<Positioner>(m,
+                         "Positioner",
+                         "A method of METHODS, with its options, made ready for one model and tool.")
+      .def(py::init<const std::string&,
+                    const SurfaceModel&,
+                    const Tool&,
+                    double,
+                    double,
+                    const std::map<std::string, double>&>(),
+           py::arg("method"),
+           py::arg("model"),
+           py::arg("tool"),
+           py::kw_only(),
+           py::arg("tilt_max_deg") = 45.0,
+           py::arg("spin_deg") = 0.0,
+           py::arg("options") = std::map<std::string, double>{},
+           py::keep_alive<1, 3>())
+      .def("place",
+           &Positioner::place,
+           py::arg("points"),
+           py::kw_only(),
+           py::arg("judge") = false,
+           py::arg("context"),
+           "As the function `place`.");
   m.def("place",
         &place,
         py::arg("method"),

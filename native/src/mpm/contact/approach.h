@@ -39,6 +39,7 @@ class Tilt {
   Mat3 velocity_slope() const;
   Vec3 acceleration(const Vec3& s) const { return insert_.u1.cross(velocity(s)); }
   const Vec3& axis() const { return insert_.u1; }
+  const Vec3& center() const { return insert_.center; }
 
  private:
   const Tool& tool_;

@@ -7,6 +7,7 @@ namespace mpm {
 namespace {
 
 constexpr double kBoundRoundoff = 1024 * kRoundoff;
+constexpr double kSingular = 1e-14;  // relative; a Hessian nearer to singular counts as singular
 
 // Least value of f + g a + h a^2 over a in [-1, 1].
 double least_on_edge(double f, double g, double h) {
@@ -16,11 +17,17 @@ double least_on_edge(double f, double g, double h) {
 
 }  // namespace
 
+// A convex quadratic lies above its tangent plane at any point, so the minimum need not be met exactly: what
+// the slope found there could still gain is taken off.
 double least_quadratic(double f, double g1, double g2, double h11, double h12, double h22) {
-  const double det = 4 * h11 * h22 - h12 * h12;
-  if (h11 > 0 && det > 0) {
+  const double product = 4 * h11 * h22, square = h12 * h12, det = product - square;
+  if (h11 > 0 && det > kSingular * (std::abs(product) + square)) {
     const double a = (h12 * g2 - 2 * h22 * g1) / det, b = (h12 * g1 - 2 * h11 * g2) / det;
-    if (std::abs(a) <= 1 && std::abs(b) <= 1) return f + 0.5 * (g1 * a + g2 * b);
+    if (std::abs(a) <= 1 && std::abs(b) <= 1) {
+      const double slope_a = g1 + 2 * h11 * a + h12 * b, slope_b = g2 + h12 * a + 2 * h22 * b;
+      return f + a * (g1 + h11 * a + h12 * b) + b * (g2 + h22 * b) - std::abs(slope_a) * (1 + std::abs(a)) -
+             std::abs(slope_b) * (1 + std::abs(b));
+    }
   }
   const double left = least_on_edge(f - g1 + h11, g2 - h12, h22),
                right = least_on_edge(f + g1 + h11, g2 + h12, h22);
@@ -29,9 +36,16 @@ double least_quadratic(double f, double g1, double g2, double h11, double h12, d
   return std::min(std::min(left, right), std::min(low, high));
 }
 
-ClearanceBound::ClearanceBound(const Tool& tool, const ToolPose& pose) : tool_(tool), pose_(pose) {
-  rounding_ = kBoundRoundoff * (pose.torus_center.cwiseAbs().maxCoeff() + tool.length() + tool.reach());
-}
+ClearanceBound::ClearanceBound(const Tool& tool, const ToolPose& pose)
+    : tool_(tool),
+      pose_(pose),
+      kernel_(ring_kernel()),
+      frame_{{pose.torus_center.x(), pose.torus_center.y(), pose.torus_center.z()},
+             {pose.axis.x(), pose.axis.y(), pose.axis.z()},
+             tool.major_radius,
+             tool.minor_radius,
+             kBoundRoundoff * (pose.torus_center.cwiseAbs().maxCoeff() + tool.length() + tool.reach())},
+      lowest_piece_(std::min(0.0, tool.recess - tool.minor_radius)) {}
 
 ClearanceBound::Meridian ClearanceBound::meridian(const Vec3& s) const {
   const Vec3 x = s - pose_.torus_center;
@@ -51,7 +65,7 @@ ClearanceBound::Answer ClearanceBound::operator()(const QuadraticCell& cell, dou
     const QuadraticBound q = ring(cell, at);
     answer.lower = std::max(answer.lower, least_quadratic(q.f - q.loss, q.g1, q.g2, q.h11, q.h12, q.h22));
   }
-  answer.lower -= rounding_;
+  answer.lower -= frame_.rounding;
   const Answer rest = pieces(cell, at, enough);
   return {std::min(answer.lower, rest.lower), std::min(answer.center, rest.center)};
 }
@@ -112,7 +126,7 @@ ClearanceBound::Answer ClearanceBound::pieces(const QuadraticCell& cell,
   const auto include = [&](double r0, double r1, double z0, double z1) {
     const double below = z0 - at.z - cell.radius;
     if (below >= enough) {  // the whole cell lies below the piece
-      answer.lower = std::min(answer.lower, below - rounding_);
+      answer.lower = std::min(answer.lower, below - frame_.rounding);
       return;
     }
     const ConeDistance d = cone_distance(at.r, at.z, r0, r1, z0, z1);
@@ -127,7 +141,7 @@ ClearanceBound::Answer ClearanceBound::pieces(const QuadraticCell& cell,
                                        n.dot(cell.E),
                                        n.dot(cell.F)));
     }
-    answer.lower = std::min(answer.lower, lower - rounding_);
+    answer.lower = std::min(answer.lower, lower - frame_.rounding);
     answer.center = std::min(answer.center, d.distance);
   };
   double top = tool_.flute_length - tool_.minor_radius;

@@ -1,6 +1,7 @@
 // Proven lower bounds of the clearance between a tool and a piece of surface.
 #pragma once
 
+#include "mpm/contact/ring_kernel.h"
 #include "mpm/surface/quadratic_cell.h"
 #include "mpm/tool/tool.h"
 
@@ -35,7 +36,22 @@ class ClearanceBound {
   // The rest of the body alone.
   Answer pieces(const QuadraticCell& cell, double enough) const;
 
-  double rounding() const { return rounding_; }
+  // The ring over four cells at once: first and second order as above.
+  void ring(const CellBatch& cells, RingAnswer& answer) const { kernel_.bound(frame_, cells, answer); }
+
+  // The four quarters of one cell of a batch; their error is the whole's.
+  void quarter(const CellBatch& whole, int lane, CellBatch& quarters) const {
+    kernel_.quarter(whole, lane, quarters);
+  }
+
+  // The rest of the body over a cell whose centre stands at height z (mm) over the torus centre, cheaply: a
+  // bound that is at least `enough` less the rounding, or -infinity where the pieces must be looked at.
+  double pieces_above(double z, double radius, double enough) const {
+    const double below = lowest_piece_ - z - radius;
+    return below >= enough ? below - frame_.rounding : -kInfinity;
+  }
+
+  double rounding() const { return frame_.rounding; }
 
  private:
   struct Meridian {  // the cell's centre in the tool's half-plane
@@ -48,7 +64,9 @@ class ClearanceBound {
 
   const Tool& tool_;
   ToolPose pose_;
-  double rounding_;  // mm, error of everything computed here (docs/numerics.md)
+  const RingKernel& kernel_;
+  RingFrame frame_;      // its rounding (mm) is the error of everything computed here (docs/numerics.md)
+  double lowest_piece_;  // mm over the torus centre
 };
 
 }  // namespace mpm

@@ -29,8 +29,10 @@ struct PatchMinimum {
 
 inline constexpr int kMaxNewtonSteps = 60;  // on one patch
 inline constexpr int kMaxHalvings = 40;     // of one step
-inline constexpr double kParallel =
-    1e-11;  // slope of the gap along the surface at which a contact counts as tangent
+// A contact counts as found when the slope of the gap along the surface is this little ...
+inline constexpr double kParallel = 1e-9;
+// ... and Newton's step promises to gain no more than this (mm or rad).
+inline constexpr double kGained = 1e-13;
 inline constexpr double kHeld = 1e-8;  // slope above which a border contact is held by the border
 inline constexpr double kConvexPart =
     1e-9;  // least eigenvalue against the greatest that Newton's step trusts
@@ -100,8 +102,9 @@ class PatchSearch {
       const FreeParameters free = free_parameters(box_, best.u, best.v, a.gradient);
       best.on_border_u = !free.u && std::abs(a.gradient.x()) * a.gap_rate > kHeld * p.su.norm();
       best.on_border_v = !free.v && std::abs(a.gradient.y()) * a.gap_rate > kHeld * p.sv.norm();
-      if (free_slope(a, p, free) <= kParallel) break;
-      if (!advance(best, p, bounded_step(best, a, free))) break;
+      const Vec2 step = bounded_step(best, a, free);
+      if (free_slope(a, p, free) <= kParallel && std::abs(a.gradient.dot(step)) <= kGained) break;
+      if (!advance(best, p, step)) break;
     }
     return best;
   }

@@ -14,14 +14,50 @@ constexpr double kZoneCell =
     1.0 / 6;  // of the cutter's radius: cells from this size down may be near a contact
 constexpr double kZoneGap = 1.0 / 1000;  // of the cutter's radius: how near
 constexpr std::size_t kMaxZones = 8;
-constexpr std::size_t kUsualStack = 256;
+// Below a leaf its quadratic serves as long as its error is this part of the gap; then Taylor's formula takes
+// over.
+constexpr double kModelPart = 1.0 / 256;
 
-struct Task {
-  std::uint32_t node;
-  bool deep;  // below a leaf: `box` and `third` describe the cell
-  bool trimmed;
+// Up to four cells that are to be looked at together.
+struct Group {
+  enum class Kind : std::uint8_t { roots, children, quarters };
+  Kind kind;
+  std::uint8_t cells;  // lanes in use, a bit each
+  std::uint8_t trimmed = 0;  // quarters: lanes that a trim boundary crosses
+  std::uint32_t node;        // roots: the first one's place in roots(); else the parent, quarters: the leaf
+  std::uint32_t batch;       // of the tree's root batches, its batches, or the arena
+  ParamBox box{};            // quarters: of the four together
+  double third = 0;          // quarters: third derivative bound over each
+};
+
+constexpr std::uint8_t kAllLanes = (1 << kLanes) - 1;
+
+std::uint8_t first_lanes(std::size_t count) { return std::uint8_t((1u << count) - 1); }
+
+ParamBox quarter_box(const ParamBox& box, int lane) {
+  const double um = box.u_mid(), vm = box.v_mid();
+  return {lane & 1 ? um : box.u0, lane & 1 ? box.u1 : um, lane & 2 ? vm : box.v0, lane & 2 ? box.v1 : vm};
+}
+
+// One cell that its bound did not settle.
+struct Cell {
+  const CellTree::Node& node;  // itself, or the leaf that it is part of
+  std::uint32_t index;         // of the node
+  bool quarter, trimmed;
   ParamBox box;
   double third;
+  const CellBatch* batch;
+  int lane;
+  double lower, center;  // mm, of the whole body
+  double a, b;           // where the ring's bound has a minimum inside; else NaN
+
+  double radius() const { return batch->radius[lane]; }
+  double error() const { return batch->error[lane]; }
+  Vec3 at() const {
+    return {batch->term[CellBatch::c][0][lane],
+            batch->term[CellBatch::c][1][lane],
+            batch->term[CellBatch::c][2][lane]};
+  }
 };
 
 class Search {
@@ -31,13 +67,18 @@ class Search {
 
   Certificate run() {
     result_.lo = options_.enough;
-    stack_.reserve(kUsualStack);
-    for (std::uint32_t root : tree_.roots()) push(root);
+    stack_.clear(), arena_.clear(), zones_.clear();
+    for (std::uint32_t i = 0; i < tree_.roots().size(); i += kLanes)
+      stack_.push_back({Group::Kind::roots,
+                        first_lanes(std::min<std::size_t>(kLanes, tree_.roots().size() - i)),
+                        0,
+                        i,
+                        i / kLanes});
     while (!stack_.empty()) {
       if (result_.cells >= options_.budget) return give_up();
-      const Task task = stack_.back();
+      const Group group = stack_.back();
       stack_.pop_back();
-      if (!settle(task)) return result_;
+      if (!settle(group)) return result_;
     }
     result_.verdict = result_.hi < -options_.tolerance    ? Verdict::gouge
                       : result_.lo >= -options_.tolerance ? Verdict::free
@@ -46,44 +87,104 @@ class Search {
   }
 
  private:
-  void push(std::uint32_t node) {
-    const CellTree::Node& n = tree_.nodes()[node];
-    stack_.push_back({node, false, n.trimmed, n.box, 0});
+  const CellBatch& cells_of(const Group& group) const {
+    return group.kind == Group::Kind::roots      ? tree_.root_batches()[group.batch]
+           : group.kind == Group::Kind::children ? tree_.batches()[group.batch]
+                                                 : arena_[group.batch];
   }
 
-  // False ends the search: a violation was found and nothing more is asked.
-  bool settle(const Task& task) {
-    const CellTree::Node& node = tree_.nodes()[task.node];
-    ++result_.cells;
-    const QuadraticCell deep = task.deep ? taylor_cell(*node.patch, task.box, task.third) : QuadraticCell{};
-    const QuadraticCell& cell = task.deep ? deep : node.cell;
-    const ClearanceBound::Answer answer = bound_(cell, options_.enough);
+  // Bounds the cells of a group and goes on with those that stay open. False ends the search: a violation was
+  // found and nothing more is asked.
+  bool settle(const Group& group) {
+    // Whatever lies above it in the arena belonged to groups that are done: the stack is last in, first out.
+    if (group.kind == Group::Kind::quarters) arena_.resize(group.batch + 1);
+    RingAnswer ring;
+    bound_.ring(cells_of(group), ring);
     const double wanted = result_.cells <= options_.sharp_budget ? options_.sharpness : options_.tolerance;
-    if (answer.lower >= -wanted) {
-      result_.lo = std::min(result_.lo, answer.lower);
-      return true;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      if (!(group.cells >> lane & 1)) continue;
+      ++result_.cells;
+      // By reference anew for each lane: the lane before may have grown the arena.
+      const CellBatch& cells = cells_of(group);
+      double lower = ring.lower[lane], center = ring.center[lane];
+      const double above = bound_.pieces_above(ring.z[lane], cells.radius[lane], options_.enough);
+      if (above > -kInfinity) {
+        lower = std::min(lower, above);
+      } else {
+        const ClearanceBound::Answer rest = bound_.pieces(get_lane(cells, lane), options_.enough);
+        lower = std::min(lower, rest.lower), center = std::min(center, rest.center);
+      }
+      if (lower >= -wanted)
+        result_.lo = std::min(result_.lo, lower);
+      else if (!open(cell_of(group, cells, lane, lower, center, ring)))
+        return false;
     }
-    const double u = task.box.u_mid(), v = task.box.v_mid();
-    if (!look_at(task, cell.radius, {node.face, u, v, cell.c, answer.center})) return false;
-    if (in_zone(node, task)) return true;
-    if (!task.trimmed && node.patch && cell.radius < kZoneCell * tool_.radius() &&
-        std::abs(answer.center) < kZoneGap * tool_.radius() && zones_tried_ < kMaxZones) {
-      if (!add_zone(node, task, u, v)) return false;
-      if (in_zone(node, task)) return true;
-    }
-    if (cell.radius < kFinestCell) {
-      result_.lo = std::min(result_.lo, answer.lower);
-      return true;
-    }
-    split(task, node);
     return true;
   }
 
+  Cell cell_of(const Group& group,
+               const CellBatch& cells,
+               int lane,
+               double lower,
+               double center,
+               const RingAnswer& ring) const {
+    const bool quarter = group.kind == Group::Kind::quarters;
+    const std::uint32_t index =
+        quarter                            ? group.node
+        : group.kind == Group::Kind::roots ? tree_.roots()[group.node + std::uint32_t(lane)]
+                                           : tree_.nodes()[group.node].first_child + std::uint32_t(lane);
+    const CellTree::Node& node = tree_.nodes()[index];
+    return {node,
+            index,
+            quarter,
+            quarter ? bool(group.trimmed >> lane & 1) : node.trimmed,
+            quarter ? quarter_box(group.box, lane) : node.box,
+            quarter ? group.third : node.third,
+            &cells,
+            lane,
+            lower,
+            center,
+            ring.a[lane],
+            ring.b[lane]};
+  }
+
+  // A cell that its bound did not settle: looks at its centre, asks the zones, splits it.
+  bool open(const Cell& cell) {
+    const ParamBox& box = cell.box;
+    if (!look_at_center(cell)) return false;
+    if (in_zone(cell)) return true;
+    const bool may_hold_contact = !cell.trimmed && cell.node.patch && cell.a == cell.a &&
+                                  cell.radius() < kZoneCell * tool_.radius() &&
+                                  std::abs(cell.center) < kZoneGap * tool_.radius();
+    if (may_hold_contact && zones_tried_ < kMaxZones) {
+      if (!add_zone(cell.node,
+                    box.u_mid() + cell.a * 0.5 * (box.u1 - box.u0),
+                    box.v_mid() + cell.b * 0.5 * (box.v1 - box.v0)))
+        return false;
+      if (in_zone(cell)) return true;
+    }
+    if (cell.radius() < kFinestCell) {
+      result_.lo = std::min(result_.lo, cell.lower);
+      return true;
+    }
+    split(cell);
+    return true;
+  }
+
+  bool look_at_center(const Cell& cell) {
+    const double u = cell.box.u_mid(), v = cell.box.v_mid();
+    if (!cell.quarter) return look_at(cell.trimmed, cell.radius(), {cell.node.face, u, v, cell.at(), cell.center});
+    if (cell.center - cell.error() >= result_.hi) return true;
+    // The centre of a quarter is only near the surface.
+    const Vec3 s = cell.node.patch->point(u, v);
+    return look_at(cell.trimmed, cell.radius(), {cell.node.face, u, v, s, signed_distance(tool_, pose_, s)});
+  }
+
   // Notes a surface point; false when it is a violation and the search is to stop there.
-  bool look_at(const Task& task, double cell_radius, const Witness& point) {
+  bool look_at(bool trimmed, double cell_radius, const Witness& point) {
     if (point.distance >= result_.hi) return true;
     const TrimRegion& trim = tree_.model().faces()[point.face].trim;
-    if (task.trimmed && cell_radius > kTrimResolution && !trim.contains(point.u, point.v)) return true;
+    if (trimmed && cell_radius > kTrimResolution && !trim.contains(point.u, point.v)) return true;
     result_.hi = point.distance;
     result_.witness = point;
     if (point.distance >= -options_.sharpness || !options_.stop_at_violation) return true;
@@ -92,9 +193,9 @@ class Search {
     return false;
   }
 
-  bool in_zone(const CellTree::Node& node, const Task& task) {
+  bool in_zone(const Cell& cell) {
     for (const ContactZone& zone : zones_)
-      if (zone.contains(node.patch, task.box)) {
+      if (zone.contains(cell.node.patch, cell.box)) {
         result_.lo = std::min(result_.lo, zone.lower);
         return true;
       }
@@ -103,38 +204,51 @@ class Search {
 
   // Looks for the contact near (u, v) and the zone it proves; false when it is a violation that ends the
   // search.
-  bool add_zone(const CellTree::Node& node, const Task& task, double u, double v) {
+  bool add_zone(const CellTree::Node& node, double u, double v) {
     for (const ContactZone& zone : zones_)
       if (zone.contains(node.patch, {u, u, v, v})) return true;
     ++zones_tried_;
     const PatchMinimum lowest = lowest_point(tool_, pose_, *node.patch, u, v);
     if (!tree_.model().faces()[node.face].trim.contains(lowest.u, lowest.v)) return true;
-    if (!look_at(task, 0, {node.face, lowest.u, lowest.v, lowest.s, lowest.value})) return false;
+    if (!look_at(false, 0, {node.face, lowest.u, lowest.v, lowest.s, lowest.value})) return false;
     if (lowest.value < -options_.sharpness) return true;
     const auto zone = contact_zone(tool_, pose_, bound_, *node.patch, node.patch_third, lowest);
     if (zone && zone->lower >= -options_.sharpness) zones_.push_back(*zone);
     return true;
   }
 
-  void split(const Task& task, const CellTree::Node& node) {
-    if (!task.deep && node.children > 0) {
-      for (std::uint32_t i = 0; i < node.children; ++i) push(node.first_child + i);
+  void split(const Cell& cell) {
+    if (!cell.quarter && cell.node.children > 0) {
+      stack_.push_back(
+          {Group::Kind::children, first_lanes(cell.node.children), 0, cell.index, cell.node.batch});
       return;
     }
-    const double third = (task.deep ? task.third : node.third) / 8;
-    const double um = task.box.u_mid(), vm = task.box.v_mid();
-    for (const ParamBox& box : {ParamBox{task.box.u0, um, task.box.v0, vm},
-                                ParamBox{um, task.box.u1, task.box.v0, vm},
-                                ParamBox{task.box.u0, um, vm, task.box.v1},
-                                ParamBox{um, task.box.u1, vm, task.box.v1}}) {
-      bool trimmed = task.trimmed;
-      if (trimmed) {
-        const TrimRegion::Cover cover = tree_.model().faces()[node.face].trim.cover(box);
-        if (cover == TrimRegion::Cover::outside) continue;
-        trimmed = cover == TrimRegion::Cover::crossing;
-      }
-      stack_.push_back({task.node, true, trimmed, box, third});
+    Group group{Group::Kind::quarters, kAllLanes, 0, cell.index, 0, cell.box, cell.third / 8};
+    if (cell.trimmed && !keep_inside(group, cell.node.face)) return;
+    make_quarters(cell, group);
+    stack_.push_back(group);
+  }
+
+  // Drops quarters outside the trim and marks those that it crosses; false when none is left.
+  bool keep_inside(Group& group, std::uint32_t face) const {
+    const TrimRegion& trim = tree_.model().faces()[face].trim;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const TrimRegion::Cover cover = trim.cover(quarter_box(group.box, lane));
+      if (cover == TrimRegion::Cover::outside) group.cells &= std::uint8_t(~(1 << lane));
+      if (cover == TrimRegion::Cover::crossing) group.trimmed |= std::uint8_t(1 << lane);
     }
+    return group.cells != 0;
+  }
+
+  void make_quarters(const Cell& cell, Group& group) {
+    group.batch = std::uint32_t(arena_.size());
+    CellBatch quarters;
+    if (cell.error() <= kModelPart * std::max(std::abs(cell.center), options_.sharpness))
+      bound_.quarter(*cell.batch, cell.lane, quarters);
+    else
+      for (int lane = 0; lane < kLanes; ++lane)
+        put_lane(quarters, lane, taylor_cell(*cell.node.patch, quarter_box(cell.box, lane), group.third));
+    arena_.push_back(quarters);
   }
 
   Certificate give_up() {
@@ -149,10 +263,16 @@ class Search {
   ClearanceBound bound_;
   const CertifyOptions& options_;
   Certificate result_;
-  std::vector<Task> stack_;
-  std::vector<ContactZone> zones_;
+  // Kept from call to call for their memory only.
+  static thread_local std::vector<Group> stack_;
+  static thread_local std::vector<CellBatch> arena_;
+  static thread_local std::vector<ContactZone> zones_;
   std::size_t zones_tried_ = 0;
 };
+
+thread_local std::vector<Group> Search::stack_;
+thread_local std::vector<CellBatch> Search::arena_;
+thread_local std::vector<ContactZone> Search::zones_;
 
 }  // namespace
 

@@ -6,6 +6,7 @@
 #include "mpm/base/error.h"
 #include "mpm/base/frame.h"
 #include "mpm/contact/curvature_limit.h"
+#include "mpm/contact/merging_contact.h"
 #include "mpm/gouge/certify_pose.h"
 
 namespace mpm {
@@ -25,7 +26,6 @@ constexpr int kBisections = 50;
 constexpr double kMerged = 0.02;  // mm: a second contact nearer than this is the first
 constexpr double kNearLimit =
     0.01;  // rad: a second contact this close to the curvature limit may have rivals
-constexpr double kBeside[] = {-0.15, -0.05, 0.05, 0.15};  // cutter radii from P along the ring
 constexpr double kNoTilt = 1e-9;                          // rad
 
 struct Start {
@@ -61,6 +61,11 @@ class Exact final : public Method {
     bool found() const { return at.value < kInfinity; }
   };
 
+  // P is never its own second contact: the arrival there is 0/0, and what it tends to is the curvature limit.
+  static bool same_contact(const Touch& touch, const Touch& first) {
+    return (touch.at.s - first.at.s).norm() < kMerged;
+  }
+
   void starts_under(const Vec2& at, std::vector<Start>& starts) const;
   template <class Approach>
   Touch best_start(const Approach& approach,
@@ -72,10 +77,14 @@ class Exact final : public Method {
   template <class Approach>
   double body_arrival(const Approach& approach, double x, const Vec3& s) const;
   template <class Approach>
-  Certificate first_touch(const Approach& approach, double& x, Touch& touch, Counters& counters) const;
+  Certificate first_touch(const Approach& approach,
+                          const Touch* first,
+                          double& x,
+                          Touch& touch,
+                          Counters& counters) const;
   void look_beside(const Tilt& approach,
                    const Touch& first,
-                   const SurfacePoint& p,
+                   double curvature,
                    Touch& second,
                    Counters& counters) const;
   void tilt(const Touch& first,
@@ -157,9 +166,10 @@ double Exact::body_arrival(const Approach& approach, double x, const Vec3& s) co
 // Brings x down to the first touch: the judge looks at the pose at x; where it finds surface inside the tool,
 // that point's own first arrival is the next x, until it finds none. The last certificate belongs to the pose
 // at x. What touches the rest of the body is taken at its deepest point each time and only to half the
-// tolerance.
+// tolerance. `first`: the contact that the motion keeps, if it keeps one.
 template <class Approach>
-Certificate Exact::first_touch(const Approach& approach, double& x, Touch& touch, Counters& counters) const {
+Certificate Exact::first_touch(
+    const Approach& approach, const Touch* first, double& x, Touch& touch, Counters& counters) const {
   CertifyOptions options = judge_;
   for (int round = 0;; ++round) {
     const Certificate certificate = certify_pose(tree_, tool_, approach.pose(x), options);
@@ -167,7 +177,7 @@ Certificate Exact::first_touch(const Approach& approach, double& x, Touch& touch
     const Witness& w = certificate.witness;
     if (!(w.distance < -options.sharpness) || round == kMaxRounds) return certificate;
     const Touch ring = refine(approach, w.face, w.u, w.v, counters);
-    if (ring.at.value < x) {
+    if (ring.at.value < x && !(first && same_contact(ring, *first))) {
       x = ring.at.value;
       touch = ring;
       continue;
@@ -190,23 +200,17 @@ void Exact::finish(Placement& placement, const Certificate& certificate) const {
 }
 
 // A second contact that is about to merge with the first comes only a little before the curvature limit, and
-// no start's own arrival need lead to it: searches from both sides of P along the ring.
+// no start's own arrival need lead to it.
 void Exact::look_beside(const Tilt& approach,
                         const Touch& first,
-                        const SurfacePoint& p,
+                        double curvature,
                         Touch& second,
                         Counters& counters) const {
-  const ParamBox& domain = model_.faces()[first.face].surface.domain();
-  const Vec3& along = approach.axis();
-  Eigen::Matrix<double, 3, 2> jacobian;
-  jacobian << p.su, p.sv;
-  const Vec2 step = jacobian.colPivHouseholderQr().solve(along);
-  for (double part : kBeside) {
-    const double u = std::clamp(first.at.u + part * tool_.radius() * step.x(), domain.u0, domain.u1);
-    const double v = std::clamp(first.at.v + part * tool_.radius() * step.y(), domain.v0, domain.v1);
-    const Touch touch = refine(approach, first.face, u, v, counters);
-    if (touch.at.value < second.at.value) second = touch;
-  }
+  const Face& face = model_.faces()[first.face];
+  const auto start = merging_contact(tool_, approach, face, first.at, curvature);
+  if (!start) return;
+  const Touch touch = refine(approach, first.face, start->x(), start->y(), counters);
+  if (touch.at.value < second.at.value && !same_contact(touch, first)) second = touch;
 }
 
 void Exact::tilt(const Touch& first,
@@ -224,13 +228,14 @@ void Exact::tilt(const Touch& first,
   const Tilt approach(tool_, insert);
   double x = limit;
   Touch second = best_start(approach, starts, x, counters);
+  if (second.found() && same_contact(second, first)) second = {};
   if (curvature <= tilt_max_ && !(second.at.value < curvature - kNearLimit))
-    look_beside(approach, first, p, second, counters);
+    look_beside(approach, first, curvature, second, counters);
   if (second.found() && second.at.value < x)
     x = second.at.value;
   else
     second = {};
-  const Certificate certificate = first_touch(approach, x, second, counters);
+  const Certificate certificate = first_touch(approach, &first, x, second, counters);
 
   const double open_side =
       spin_ != 0 ? -std::atan2(placement.first_normal.dot(insert.w1), placement.first_normal.dot(insert.v1))
@@ -263,7 +268,7 @@ Placement Exact::place(const Vec2& at, Counters& counters) const {
   Touch first = best_start(approach, starts, kInfinity, counters);
   if (!first.found()) return placement;
   double x = first.at.value;
-  const Certificate certificate = first_touch(approach, x, first, counters);
+  const Certificate certificate = first_touch(approach, nullptr, x, first, counters);
   if (model_.faces()[first.face].check) return placement;
   placement.pose = approach.pose(x);
   placement.first_contact = first.at.s;

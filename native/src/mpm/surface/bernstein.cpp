@@ -3,30 +3,45 @@
 namespace mpm {
 namespace {
 
-// b'_i = n (b_{i-1} - b_i) with the polynomials one degree lower, which `lower` holds.
-void differentiate(int degree, const BernsteinRow& lower, BernsteinRow& d) {
-  for (int i = 0; i <= degree; ++i) {
-    const double before = i > 0 ? lower[i - 1] : 0.0;
-    const double here = i < degree ? lower[i] : 0.0;
-    d[i] = degree * (before - here);
-  }
+// The polynomials of `degree` from those one degree lower.
+void raise(int degree, double t, const double* lower, double* b) {
+  const double s = 1.0 - t;
+  b[0] = s * lower[0];
+  for (int i = 1; i < degree; ++i) b[i] = s * lower[i] + t * lower[i - 1];
+  b[degree] = t * lower[degree - 1];
+}
+
+// b'_i = n (b_{i-1} - b_i) with the polynomials one degree lower.
+void differentiate(int degree, const double* lower, double* d) {
+  d[0] = -degree * lower[0];
+  for (int i = 1; i < degree; ++i) d[i] = degree * (lower[i - 1] - lower[i]);
+  d[degree] = degree * lower[degree - 1];
 }
 
 }  // namespace
 
 void bernstein_derivatives(int degree, double t, BernsteinRow& b, BernsteinRow& d, BernsteinRow& dd) {
-  bernstein(degree, t, b);
-  BernsteinRow lower{};
-  bernstein(degree - 1, t, lower);
-  differentiate(degree, lower, d);
+  BernsteinRow lower, lower_d;
   if (degree < 2) {
-    dd.fill(0.0);
+    b[0] = 1.0 - t, b[1] = t;
+    d[0] = -1.0, d[1] = 1.0;
+    dd[0] = dd[1] = 0.0;
     return;
   }
-  BernsteinRow lowest{}, lower_d{};
-  bernstein(degree - 2, t, lowest);
-  differentiate(degree - 1, lowest, lower_d);
-  differentiate(degree, lower_d, dd);
+  // Up to two degrees lower, whose derivative of the derivative is wanted; then the last two degrees.
+  BernsteinRow lowest;
+  lowest[0] = 1.0;
+  for (int k = 1; k <= degree - 2; ++k) {
+    // In place, from the right: raise() for a row that is its own source.
+    lowest[k] = t * lowest[k - 1];
+    for (int i = k - 1; i > 0; --i) lowest[i] = (1.0 - t) * lowest[i] + t * lowest[i - 1];
+    lowest[0] *= 1.0 - t;
+  }
+  raise(degree - 1, t, lowest.data(), lower.data());
+  raise(degree, t, lower.data(), b.data());
+  differentiate(degree, lower.data(), d.data());
+  differentiate(degree - 1, lowest.data(), lower_d.data());
+  differentiate(degree, lower_d.data(), dd.data());
 }
 
 }  // namespace mpm

@@ -108,6 +108,13 @@ QuadraticCell covering_cell(const BSplineSurface& surface,
   return cell;
 }
 
+CellBatch batch_of(const Node* const* nodes, std::size_t count) {
+  CellBatch batch;
+  for (int lane = 0; lane < kLanes; ++lane)
+    put_lane(batch, lane, nodes[std::min(std::size_t(lane), count - 1)]->cell);
+  return batch;
+}
+
 }  // namespace
 
 CellTree::CellTree(const SurfaceModel& model, double leaf_size, std::size_t max_leaves) : model_(model) {
@@ -118,6 +125,10 @@ CellTree::CellTree(const SurfaceModel& model, double leaf_size, std::size_t max_
   }
   const double size = std::max(leaf_size, std::sqrt(area / double(max_leaves)));
   for (std::uint32_t f = 0; f < model.faces().size(); ++f) add_face(f, size);
+  std::vector<const Node*> all;
+  for (const std::uint32_t root : roots_) all.push_back(&nodes_[root]);
+  for (std::size_t i = 0; i < all.size(); i += kLanes)
+    root_batches_.push_back(batch_of(&all[i], std::min<std::size_t>(kLanes, all.size() - i)));
 }
 
 void CellTree::add_face(std::uint32_t face, double leaf_size) {
@@ -154,6 +165,8 @@ void CellTree::add_face(std::uint32_t face, double leaf_size) {
         node.children = std::uint8_t(children.size());
         node.cell = covering_cell(surface, node.box, children);
         for (const Node* c : children) nodes_.push_back(*c);
+        node.batch = std::uint32_t(batches_.size());
+        batches_.push_back(batch_of(children.data(), children.size()));
         up.nodes[i * up.nv + j] = node;
       }
     level = std::move(up);

@@ -16,6 +16,7 @@ class CellTree {
     QuadraticCell cell;
     ParamBox box;
     std::uint32_t first_child = 0;  // children are consecutive
+    std::uint32_t batch = 0;        // of batches(): the children's cells, in their order
     std::uint8_t children = 0;      // 0: a leaf
     bool trimmed = false;           // a trim boundary crosses it: part of it may not belong to the face
     std::uint32_t face = 0;
@@ -35,12 +36,17 @@ class CellTree {
     return roots_;
   }  // one a face that is not wholly trimmed away
 
+  // Cells in fours; lanes that no cell fills repeat one that does.
+  const std::vector<CellBatch>& batches() const { return batches_; }
+  const std::vector<CellBatch>& root_batches() const { return root_batches_; }  // roots() in fours
+
  private:
   void add_face(std::uint32_t face, double leaf_size);
 
   const SurfaceModel& model_;
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> roots_;
+  std::vector<CellBatch> batches_, root_batches_;
 };
 
 }  // namespace mpm

@@ -93,6 +93,27 @@ double error_bound(const BezierPatch& part, const QuadraticCell& cell) {
 
 }  // namespace
 
+void put_lane(CellBatch& batch, int lane, const QuadraticCell& cell) {
+  const Vec3* terms[] = {&cell.c, &cell.A, &cell.B, &cell.C, &cell.E, &cell.F};
+  for (int t = 0; t < 6; ++t)
+    for (int k = 0; k < 3; ++k) batch.term[t][k][lane] = (*terms[t])[k];
+  batch.error[lane] = cell.error, batch.radius[lane] = cell.radius;
+}
+
+QuadraticCell get_lane(const CellBatch& batch, int lane) {
+  const auto term = [&](CellBatch::Term t) -> Vec3 {
+    return {batch.term[t][0][lane], batch.term[t][1][lane], batch.term[t][2][lane]};
+  };
+  return {term(CellBatch::c),
+          term(CellBatch::A),
+          term(CellBatch::B),
+          term(CellBatch::C),
+          term(CellBatch::E),
+          term(CellBatch::F),
+          batch.error[lane],
+          batch.radius[lane]};
+}
+
 double third_derivative_bound(const BezierPatch& part) {
   const Vec3 origin = part.point(part.box().u_mid(), part.box().v_mid());
   double least_weight = kInfinity;

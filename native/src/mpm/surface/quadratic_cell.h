@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "mpm/surface/bezier_patch.h"
+#include "mpm/surface/cell_batch.h"
 
 namespace mpm {
 
@@ -19,6 +20,10 @@ struct QuadraticCell {
     radius = std::max((A + B).norm(), (A - B).norm()) + C.norm() + E.norm() + F.norm() + error;
   }
 };
+
+// One lane of a batch, written and read.
+void put_lane(CellBatch& batch, int lane, const QuadraticCell& cell);
+QuadraticCell get_lane(const CellBatch& batch, int lane);
 
 // Bound (mm) of |D^3 S [x, x, x]| for x in [-1, 1]^2, the third derivative along any such direction anywhere
 // in `part`, with a and b scaled to the part; from the control points' differences.

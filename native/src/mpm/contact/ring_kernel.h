@@ -1,0 +1,43 @@
+// The vector kernels behind ClearanceBound: the ring's clearance over four cells at once.
+#pragma once
+
+#include "mpm/surface/cell_batch.h"
+
+namespace mpm {
+
+// The ring of a tool at a pose, as plain numbers.
+struct RingFrame {
+  double center[3], axis[3];  // axis: unit
+  double major_radius, minor_radius;
+  double rounding;  // mm, taken off every bound
+};
+
+// What is known of the ring over each of four cells.
+struct alignas(32) RingAnswer {
+  double lower[kLanes];   // mm: no point of the cell has a smaller signed distance from the ring
+  double center[kLanes];  // mm: signed distance of the cell's centre from the ring
+  double r[kLanes];       // mm: the centre's distance from the tool axis
+  double z[kLanes];       // mm: the centre's height over the plane of the major circle
+  double a[kLanes];       // where the bounding quadratic has a minimum inside the cell, in [-1, 1] ...
+  double b[kLanes];       // ... NaN where it has none
+};
+
+// Every instruction set gives the same bits: only additions, multiplications, divisions and square roots,
+// each rounded.
+struct RingKernel {
+  // First and second order bounds as ClearanceBound's (docs/methods/exact.md, section "Bound").
+  void (*bound)(const RingFrame& ring, const CellBatch& cells, RingAnswer& answer);
+  // The four quarters of cell `lane` of `whole` by substitution: lane 0 a, b < 0; 1 a > 0; 2 b > 0; 3 both.
+  // Their error is the whole's.
+  void (*quarter)(const CellBatch& whole, int lane, CellBatch& quarters);
+};
+
+// The widest that this processor has.
+const RingKernel& ring_kernel();
+
+extern const RingKernel kBaselineRingKernel;
+#ifdef MPM_AVX2
+extern const RingKernel kAvx2RingKernel;
+#endif
+
+}  // namespace mpm
