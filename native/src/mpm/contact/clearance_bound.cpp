@@ -44,8 +44,8 @@ ClearanceBound::ClearanceBound(const Tool& tool, const ToolPose& pose)
              {pose.axis.x(), pose.axis.y(), pose.axis.z()},
              tool.major_radius,
              tool.minor_radius,
-             kBoundRoundoff * (pose.torus_center.cwiseAbs().maxCoeff() + tool.length() + tool.reach())},
-      lowest_piece_(std::min(0.0, tool.recess - tool.minor_radius)) {}
+             kBoundRoundoff * (pose.torus_center.cwiseAbs().maxCoeff() + tool.length() + tool.reach()),
+             std::min(0.0, tool.recess - tool.minor_radius)} {}
 
 ClearanceBound::Meridian ClearanceBound::meridian(const Vec3& s) const {
   const Vec3 x = s - pose_.torus_center;

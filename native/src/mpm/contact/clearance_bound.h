@@ -36,19 +36,14 @@ class ClearanceBound {
   // The rest of the body alone.
   Answer pieces(const QuadraticCell& cell, double enough) const;
 
-  // The ring over four cells at once: first and second order as above.
-  void ring(const CellBatch& cells, RingAnswer& answer) const { kernel_.bound(frame_, cells, answer); }
+  // The ring, and cheaply the rest of the body, over four cells at once: first and second order as above.
+  void four(const CellBatch& cells, double enough, RingAnswer& answer) const {
+    kernel_.bound(frame_, cells, enough, answer);
+  }
 
   // The four quarters of one cell of a batch; their error is the whole's.
   void quarter(const CellBatch& whole, int lane, CellBatch& quarters) const {
     kernel_.quarter(whole, lane, quarters);
-  }
-
-  // The rest of the body over a cell whose centre stands at height z (mm) over the torus centre, cheaply: a
-  // bound that is at least `enough` less the rounding, or -infinity where the pieces must be looked at.
-  double pieces_above(double z, double radius, double enough) const {
-    const double below = lowest_piece_ - z - radius;
-    return below >= enough ? below - frame_.rounding : -kInfinity;
   }
 
   double rounding() const { return frame_.rounding; }
@@ -66,7 +61,6 @@ class ClearanceBound {
   ToolPose pose_;
   const RingKernel& kernel_;
   RingFrame frame_;      // its rounding (mm) is the error of everything computed here (docs/numerics.md)
-  double lowest_piece_;  // mm over the torus centre
 };
 
 }  // namespace mpm

@@ -9,24 +9,25 @@ namespace mpm {
 struct RingFrame {
   double center[3], axis[3];  // axis: unit
   double major_radius, minor_radius;
-  double rounding;  // mm, taken off every bound
+  double rounding;      // mm, taken off every bound
+  double lowest_piece;  // mm over the torus centre: the rest of the body begins there
 };
 
 // What is known of the ring over each of four cells.
 struct alignas(32) RingAnswer {
-  double lower[kLanes];   // mm: no point of the cell has a smaller signed distance from the ring
+  double lower[kLanes];   // mm: no point of the cell has a smaller signed distance from the ring (nor, where
+                          // below_pieces, from the rest of the body)
   double center[kLanes];  // mm: signed distance of the cell's centre from the ring
-  double r[kLanes];       // mm: the centre's distance from the tool axis
-  double z[kLanes];       // mm: the centre's height over the plane of the major circle
   double a[kLanes];       // where the bounding quadratic has a minimum inside the cell, in [-1, 1] ...
   double b[kLanes];       // ... NaN where it has none
+  int below_pieces;       // a bit a lane: the whole cell lies at least `enough` below the rest of the body
 };
 
 // Every instruction set gives the same bits: only additions, multiplications, divisions and square roots,
 // each rounded.
 struct RingKernel {
   // First and second order bounds as ClearanceBound's (docs/methods/exact.md, section "Bound").
-  void (*bound)(const RingFrame& ring, const CellBatch& cells, RingAnswer& answer);
+  void (*bound)(const RingFrame& ring, const CellBatch& cells, double enough, RingAnswer& answer);
   // The four quarters of cell `lane` of `whole` by substitution: lane 0 a, b < 0; 1 a > 0; 2 b > 0; 3 both.
   // Their error is the whole's.
   void (*quarter)(const CellBatch& whole, int lane, CellBatch& quarters);

@@ -11,8 +11,8 @@ namespace {
 constexpr double kTrimResolution = 1e-6;  // mm
 constexpr double kFinestCell = 1e-10;     // mm: smaller cells are all rounding
 constexpr double kZoneCell =
-    1.0 / 6;  // of the cutter's radius: cells from this size down may be near a contact
-constexpr double kZoneGap = 1.0 / 1000;  // of the cutter's radius: how near
+    1.0 / 48;  // of the cutter's radius: cells from this size down may be near a contact
+constexpr double kZoneGap = 1.0 / 10000;  // of the cutter's radius: how near
 constexpr std::size_t kMaxZones = 8;
 // Below a leaf its quadratic serves as long as its error is this part of the gap; then Taylor's formula takes
 // over.
@@ -60,10 +60,28 @@ struct Cell {
   }
 };
 
+// Kept from call to call for its memory only.
+struct Workspace {
+  std::vector<Group> stack;
+  std::vector<CellBatch> arena;
+  std::vector<ContactZone> zones;
+};
+
 class Search {
  public:
-  Search(const CellTree& tree, const Tool& tool, const ToolPose& pose, const CertifyOptions& options)
-      : tree_(tree), tool_(tool), pose_(pose), bound_(tool, pose), options_(options) {}
+  Search(const CellTree& tree,
+         const Tool& tool,
+         const ToolPose& pose,
+         const CertifyOptions& options,
+         Workspace& workspace)
+      : tree_(tree),
+        tool_(tool),
+        pose_(pose),
+        bound_(tool, pose),
+        options_(options),
+        stack_(workspace.stack),
+        arena_(workspace.arena),
+        zones_(workspace.zones) {}
 
   Certificate run() {
     result_.lo = options_.enough;
@@ -99,24 +117,19 @@ class Search {
     // Whatever lies above it in the arena belonged to groups that are done: the stack is last in, first out.
     if (group.kind == Group::Kind::quarters) arena_.resize(group.batch + 1);
     RingAnswer ring;
-    bound_.ring(cells_of(group), ring);
+    bound_.four(cells_of(group), options_.enough, ring);
     const double wanted = result_.cells <= options_.sharp_budget ? options_.sharpness : options_.tolerance;
     for (int lane = 0; lane < kLanes; ++lane) {
       if (!(group.cells >> lane & 1)) continue;
       ++result_.cells;
-      // By reference anew for each lane: the lane before may have grown the arena.
-      const CellBatch& cells = cells_of(group);
       double lower = ring.lower[lane], center = ring.center[lane];
-      const double above = bound_.pieces_above(ring.z[lane], cells.radius[lane], options_.enough);
-      if (above > -kInfinity) {
-        lower = std::min(lower, above);
-      } else {
-        const ClearanceBound::Answer rest = bound_.pieces(get_lane(cells, lane), options_.enough);
+      if (!(ring.below_pieces >> lane & 1)) {
+        const ClearanceBound::Answer rest = bound_.pieces(get_lane(cells_of(group), lane), options_.enough);
         lower = std::min(lower, rest.lower), center = std::min(center, rest.center);
       }
       if (lower >= -wanted)
         result_.lo = std::min(result_.lo, lower);
-      else if (!open(cell_of(group, cells, lane, lower, center, ring)))
+      else if (!open(cell_of(group, cells_of(group), lane, lower, center, ring)))
         return false;
     }
     return true;
@@ -263,16 +276,11 @@ class Search {
   ClearanceBound bound_;
   const CertifyOptions& options_;
   Certificate result_;
-  // Kept from call to call for their memory only.
-  static thread_local std::vector<Group> stack_;
-  static thread_local std::vector<CellBatch> arena_;
-  static thread_local std::vector<ContactZone> zones_;
+  std::vector<Group>& stack_;
+  std::vector<CellBatch>& arena_;
+  std::vector<ContactZone>& zones_;
   std::size_t zones_tried_ = 0;
 };
-
-thread_local std::vector<Group> Search::stack_;
-thread_local std::vector<CellBatch> Search::arena_;
-thread_local std::vector<ContactZone> Search::zones_;
 
 }  // namespace
 
@@ -280,7 +288,8 @@ Certificate certify_pose(const CellTree& tree,
                          const Tool& tool,
                          const ToolPose& pose,
                          const CertifyOptions& options) {
-  return Search(tree, tool, pose, options).run();
+  static thread_local Workspace workspace;
+  return Search(tree, tool, pose, options, workspace).run();
 }
 
 }  // namespace mpm

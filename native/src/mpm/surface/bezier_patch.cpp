@@ -4,6 +4,7 @@
 
 #include "mpm/base/error.h"
 #include "mpm/surface/bernstein.h"
+#include "mpm/surface/net_kernel.h"
 
 namespace mpm {
 namespace {
@@ -50,22 +51,16 @@ SurfacePoint BezierPatch::evaluate(double u, double v) const {
   BernsteinRow bu, du, ddu, bv, dv, ddv;
   bernstein_derivatives(degree_u_, local(u, box_.u0, box_.u1), bu, du, ddu);
   bernstein_derivatives(degree_v_, local(v, box_.v0, box_.v1), bv, dv, ddv);
-  Vec4 h = Vec4::Zero(), hu = h, hv = h, huu = h, huv = h, hvv = h;
-  const Vec4* c = control_.data();
-  for (int i = 0; i <= degree_u_; ++i) {
-    Vec4 row = Vec4::Zero(), row_v = row, row_vv = row;
-    for (int j = 0; j <= degree_v_; ++j, ++c) {
-      row += bv[j] * *c;
-      row_v += dv[j] * *c;
-      row_vv += ddv[j] * *c;
-    }
-    h += bu[i] * row;
-    hu += du[i] * row;
-    huu += ddu[i] * row;
-    hv += bu[i] * row_v;
-    huv += du[i] * row_v;
-    hvv += bu[i] * row_vv;
-  }
+  static const NetKernel kernel = net_kernel();
+  double sums[6][4];
+  kernel(control_.data()->data(),
+         degree_u_,
+         degree_v_,
+         {bu.data(), du.data(), ddu.data()},
+         {bv.data(), dv.data(), ddv.data()},
+         sums);
+  const auto sum = [&](int k) -> Vec4 { return {sums[k][0], sums[k][1], sums[k][2], sums[k][3]}; };
+  Vec4 h = sum(0), hu = sum(1), hv = sum(2), huu = sum(3), huv = sum(4), hvv = sum(5);
   const double ku = 1.0 / (box_.u1 - box_.u0), kv = 1.0 / (box_.v1 - box_.v0);
   hu *= ku, huu *= ku * ku, hv *= kv, hvv *= kv * kv, huv *= ku * kv;
   SurfacePoint p;
