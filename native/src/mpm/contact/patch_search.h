@@ -104,7 +104,8 @@ class PatchSearch {
       best.on_border_v = !free.v && std::abs(a.gradient.y()) * a.gap_rate > kHeld * p.sv.norm();
       const Vec2 step = bounded_step(best, a, free);
       if (free_slope(a, p, free) <= kParallel && std::abs(a.gradient.dot(step)) <= kGained) break;
-      if (!advance(best, p, step)) break;
+      const bool may_halve = std::abs(a.gradient.dot(step)) > kGained;
+      if (!advance(best, p, step, may_halve ? kMaxHalvings : 1)) break;
     }
     return best;
   }
@@ -127,9 +128,9 @@ class PatchSearch {
     return part * step;
   }
 
-  // Halves the step until the value is less; false when no step is.
-  bool advance(PatchMinimum& best, SurfacePoint& p, Vec2 step) const {
-    for (int k = 0; k < kMaxHalvings; ++k, step *= 0.5) {
+  // Halves the step until the value is less; false when none of so many steps is.
+  bool advance(PatchMinimum& best, SurfacePoint& p, Vec2 step, int most) const {
+    for (int k = 0; k < most; ++k, step *= 0.5) {
       const double u = std::clamp(best.u + step.x(), box_.u0, box_.u1);
       const double v = std::clamp(best.v + step.y(), box_.v0, box_.v1);
       if (u == best.u && v == best.v) return false;

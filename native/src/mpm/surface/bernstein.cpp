@@ -18,9 +18,18 @@ void differentiate(int degree, const double* lower, double* d) {
   d[degree] = degree * lower[degree - 1];
 }
 
+// The cubic ones at once.
+void cubic(double t, BernsteinRow& b, BernsteinRow& d, BernsteinRow& dd) {
+  const double s = 1.0 - t, ss = s * s, st = s * t, tt = t * t;
+  b[0] = ss * s, b[1] = 3 * ss * t, b[2] = 3 * s * tt, b[3] = tt * t;
+  d[0] = -3 * ss, d[1] = 3 * (ss - 2 * st), d[2] = 3 * (2 * st - tt), d[3] = 3 * tt;
+  dd[0] = 6 * s, dd[1] = 6 * (t - 2 * s), dd[2] = 6 * (s - 2 * t), dd[3] = 6 * t;
+}
+
 }  // namespace
 
 void bernstein_derivatives(int degree, double t, BernsteinRow& b, BernsteinRow& d, BernsteinRow& dd) {
+  if (degree == 3) return cubic(t, b, d, dd);
   BernsteinRow lower, lower_d;
   if (degree < 2) {
     b[0] = 1.0 - t, b[1] = t;
