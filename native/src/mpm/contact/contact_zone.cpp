@@ -8,9 +8,9 @@
 namespace mpm {
 namespace {
 
-constexpr double kLargestZone = 1.0 / 3;  // half-width against the cutter's radius
-constexpr int kZoneHalvings = 9;
-constexpr double kZoneShrink = 0.5;
+constexpr double kLargestZone = 1.0 / 12;  // half-width against the cutter's radius
+constexpr int kZoneSizes = 4;
+constexpr double kZoneShrink = 0.25;  // from one to the next
 
 class GapObjective {
  public:
@@ -110,7 +110,7 @@ std::optional<ContactZone> contact_zone(const Tool& tool,
   if (!directions.allFinite()) return std::nullopt;
   const Derivatives gap = GapObjective(tool, pose).derivatives(p, lowest.value);
   double size = kLargestZone * tool.radius();
-  for (int k = 0; k < kZoneHalvings; ++k, size *= kZoneShrink) {
+  for (int k = 0; k < kZoneSizes; ++k, size *= kZoneShrink) {
     const Eigen::Matrix2d w = size * directions;
     const QuadraticCell cell = zone_cell(p, patch, third, w);
     if ((p.s - pose.torus_center).cross(pose.axis).norm() <= cell.radius) continue;

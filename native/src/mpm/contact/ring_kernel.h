@@ -19,14 +19,15 @@ struct alignas(32) RingAnswer {
                           // below_pieces, from the rest of the body)
   double center[kLanes];  // mm: signed distance of the cell's centre from the ring
   double a[kLanes];       // where the bounding quadratic has a minimum inside the cell, in [-1, 1] ...
-  double b[kLanes];       // ... NaN where it has none
+  double b[kLanes];       // ... NaN where it has none, or nobody looked
   int below_pieces;       // a bit a lane: the whole cell lies at least `enough` below the rest of the body
 };
 
 // Every instruction set gives the same bits: only additions, multiplications, divisions and square roots,
 // each rounded.
 struct RingKernel {
-  // First and second order bounds as ClearanceBound's (docs/methods/exact.md, section "Bound").
+  // First and second order bounds as ClearanceBound's (docs/methods/exact.md, section "Bound"); the second is
+  // left out where the first reaches `enough` in every lane, or the cells are as large as the tool.
   void (*bound)(const RingFrame& ring, const CellBatch& cells, double enough, RingAnswer& answer);
   // The four quarters of cell `lane` of `whole` by substitution: lane 0 a, b < 0; 1 a > 0; 2 b > 0; 3 both.
   // Their error is the whole's.

@@ -46,18 +46,11 @@ struct Cell {
   bool quarter, trimmed;
   ParamBox box;
   double third;
-  const CellBatch* batch;
+  const Group& group;
   int lane;
   double lower, center;  // mm, of the whole body
   double a, b;           // where the ring's bound has a minimum inside; else NaN
-
-  double radius() const { return batch->radius[lane]; }
-  double error() const { return batch->error[lane]; }
-  Vec3 at() const {
-    return {batch->term[CellBatch::c][0][lane],
-            batch->term[CellBatch::c][1][lane],
-            batch->term[CellBatch::c][2][lane]};
-  }
+  double radius, error;  // mm
 };
 
 // Kept from call to call for its memory only.
@@ -85,7 +78,7 @@ class Search {
 
   Certificate run() {
     result_.lo = options_.enough;
-    stack_.clear(), arena_.clear(), zones_.clear();
+    stack_.clear(), zones_.clear();
     for (std::uint32_t i = 0; i < tree_.roots().size(); i += kLanes)
       stack_.push_back({Group::Kind::roots,
                         first_lanes(std::min<std::size_t>(kLanes, tree_.roots().size() - i)),
@@ -115,7 +108,7 @@ class Search {
   // found and nothing more is asked.
   bool settle(const Group& group) {
     // Whatever lies above it in the arena belonged to groups that are done: the stack is last in, first out.
-    if (group.kind == Group::Kind::quarters) arena_.resize(group.batch + 1);
+    if (group.kind == Group::Kind::quarters) arena_used_ = group.batch + 1;
     RingAnswer ring;
     bound_.four(cells_of(group), options_.enough, ring);
     const double wanted = result_.cells <= options_.sharp_budget ? options_.sharpness : options_.tolerance;
@@ -123,7 +116,8 @@ class Search {
       if (!(group.cells >> lane & 1)) continue;
       ++result_.cells;
       double lower = ring.lower[lane], center = ring.center[lane];
-      if (!(ring.below_pieces >> lane & 1)) {
+      // What the ring leaves open is split whatever the rest of the body says.
+      if (lower >= -wanted && !(ring.below_pieces >> lane & 1)) {
         const ClearanceBound::Answer rest = bound_.pieces(get_lane(cells_of(group), lane), options_.enough);
         lower = std::min(lower, rest.lower), center = std::min(center, rest.center);
       }
@@ -153,12 +147,14 @@ class Search {
             quarter ? bool(group.trimmed >> lane & 1) : node.trimmed,
             quarter ? quarter_box(group.box, lane) : node.box,
             quarter ? group.third : node.third,
-            &cells,
+            group,
             lane,
             lower,
             center,
             ring.a[lane],
-            ring.b[lane]};
+            ring.b[lane],
+            cells.radius[lane],
+            cells.error[lane]};
   }
 
   // A cell that its bound did not settle: looks at its centre, asks the zones, splits it.
@@ -167,7 +163,7 @@ class Search {
     if (!look_at_center(cell)) return false;
     if (in_zone(cell)) return true;
     const bool may_hold_contact = !cell.trimmed && cell.node.patch && cell.a == cell.a &&
-                                  cell.radius() < kZoneCell * tool_.radius() &&
+                                  cell.radius < kZoneCell * tool_.radius() &&
                                   std::abs(cell.center) < kZoneGap * tool_.radius();
     if (may_hold_contact && zones_tried_ < kMaxZones) {
       if (!add_zone(cell.node,
@@ -176,7 +172,7 @@ class Search {
         return false;
       if (in_zone(cell)) return true;
     }
-    if (cell.radius() < kFinestCell) {
+    if (cell.radius < kFinestCell) {
       result_.lo = std::min(result_.lo, cell.lower);
       return true;
     }
@@ -186,11 +182,11 @@ class Search {
 
   bool look_at_center(const Cell& cell) {
     const double u = cell.box.u_mid(), v = cell.box.v_mid();
-    if (!cell.quarter) return look_at(cell.trimmed, cell.radius(), {cell.node.face, u, v, cell.at(), cell.center});
-    if (cell.center - cell.error() >= result_.hi) return true;
+    if (!cell.quarter) return look_at(cell.trimmed, cell.radius, {cell.node.face, u, v, cell.node.cell.c, cell.center});
+    if (cell.center - cell.error >= result_.hi) return true;
     // The centre of a quarter is only near the surface.
     const Vec3 s = cell.node.patch->point(u, v);
-    return look_at(cell.trimmed, cell.radius(), {cell.node.face, u, v, s, signed_distance(tool_, pose_, s)});
+    return look_at(cell.trimmed, cell.radius, {cell.node.face, u, v, s, signed_distance(tool_, pose_, s)});
   }
 
   // Notes a surface point; false when it is a violation and the search is to stop there.
@@ -254,14 +250,14 @@ class Search {
   }
 
   void make_quarters(const Cell& cell, Group& group) {
-    group.batch = std::uint32_t(arena_.size());
-    CellBatch quarters;
-    if (cell.error() <= kModelPart * std::max(std::abs(cell.center), options_.sharpness))
-      bound_.quarter(*cell.batch, cell.lane, quarters);
+    group.batch = arena_used_++;
+    if (arena_used_ > arena_.size()) arena_.resize(2 * arena_used_);
+    CellBatch& quarters = arena_[group.batch];
+    if (cell.error <= kModelPart * std::max(std::abs(cell.center), options_.sharpness))
+      bound_.quarter(cells_of(cell.group), cell.lane, quarters);
     else
       for (int lane = 0; lane < kLanes; ++lane)
         put_lane(quarters, lane, taylor_cell(*cell.node.patch, quarter_box(cell.box, lane), group.third));
-    arena_.push_back(quarters);
   }
 
   Certificate give_up() {
@@ -278,6 +274,7 @@ class Search {
   Certificate result_;
   std::vector<Group>& stack_;
   std::vector<CellBatch>& arena_;
+  std::uint32_t arena_used_ = 0;
   std::vector<ContactZone>& zones_;
   std::size_t zones_tried_ = 0;
 };

@@ -12,7 +12,7 @@
 namespace mpm {
 namespace {
 
-constexpr double kLeafPerRadius = 1.0 / 12;  // finest precomputed cells against the cutter's radius
+constexpr double kLeafPerRadius = 1.0 / 6;  // finest precomputed cells against the cutter's radius
 constexpr double kStartPerRadius = 1.0 / 4;  // cells whose centres start the searches
 constexpr double kSharpness = 1e-9;          // mm: contacts are found to this depth
 constexpr double kSharpRoundoff = 4096 * kRoundoff;
