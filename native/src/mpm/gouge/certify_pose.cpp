@@ -14,6 +14,7 @@ constexpr double kZoneCell =
     1.0 / 48;  // of the cutter's radius: cells from this size down may be near a contact
 constexpr double kZoneGap = 1.0 / 10000;  // of the cutter's radius: how near
 constexpr std::size_t kMaxZones = 8;
+constexpr double kDeeper = 1.1;  // after a violation, points less than this much deeper are not looked for
 // Below a leaf its quadratic serves as long as its error is this part of the gap; then Taylor's formula takes
 // over.
 constexpr double kModelPart = 1.0 / 256;
@@ -121,7 +122,7 @@ class Search {
         const ClearanceBound::Answer rest = bound_.pieces(get_lane(cells_of(group), lane), options_.enough);
         lower = std::min(lower, rest.lower), center = std::min(center, rest.center);
       }
-      if (lower >= -wanted)
+      if (lower >= -wanted || lower >= deep_enough_)
         result_.lo = std::min(result_.lo, lower);
       else if (!open(cell_of(group, cells_of(group), lane, lower, center, ring)))
         return false;
@@ -196,6 +197,7 @@ class Search {
     if (trimmed && cell_radius > kTrimResolution && !trim.contains(point.u, point.v)) return true;
     result_.hi = point.distance;
     result_.witness = point;
+    if (point.distance < -options_.sharpness) deep_enough_ = kDeeper * point.distance;
     if (point.distance >= -options_.sharpness || !options_.stop_at_violation) return true;
     result_.verdict = point.distance < -options_.tolerance ? Verdict::gouge : Verdict::undecided;
     result_.lo = -kInfinity;
@@ -275,6 +277,7 @@ class Search {
   std::vector<Group>& stack_;
   std::vector<CellBatch>& arena_;
   std::uint32_t arena_used_ = 0;
+  double deep_enough_ = kInfinity;  // mm
   std::vector<ContactZone>& zones_;
   std::size_t zones_tried_ = 0;
 };

@@ -176,6 +176,9 @@ Certificate Exact::first_touch(
     counters.cells += certificate.cells;
     const Witness& w = certificate.witness;
     if (!(w.distance < -options.sharpness) || round == kMaxRounds) return certificate;
+    // The budget is one for all rounds.
+    if (certificate.cells >= options.budget) return certificate;
+    options.budget -= std::uint32_t(certificate.cells);
     const Touch ring = refine(approach, w.face, w.u, w.v, counters);
     if (ring.at.value < x && !(first && same_contact(ring, *first))) {
       x = ring.at.value;
