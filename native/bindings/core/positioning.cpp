@@ -58,6 +58,25 @@ class Positioner {
     method_ = make_method(method, model, tool_, {radians(tilt_max_deg), radians(spin_deg), options});
   }
 
+  py::dict place_contacts(const std::vector<std::uint32_t>& faces,
+                          const DoubleArray& uv,
+                          const DoubleArray& ring_directions,
+                          Context& context) const {
+    const std::vector<Vec2> at = to_vectors<Vec2>(uv, "uv");
+    const std::vector<Vec3> along = to_vectors<Vec3>(ring_directions, "ring_directions");
+    require(faces.size() == at.size() && at.size() == along.size(),
+            "faces (N,), uv (N, 2) and ring_directions (N, 3) must have the same N");
+    std::vector<GivenContact> contacts;
+    for (std::size_t i = 0; i < at.size(); ++i)
+      contacts.push_back({faces[i], at[i].x(), at[i].y(), along[i]});
+    Placements placements;
+    {
+      py::gil_scoped_release release;
+      placements = place_all(*method_, model_, contacts, context);
+    }
+    return to_dict(placements, tool_);
+  }
+
   py::dict place(const DoubleArray& points, bool judge, Context& context) const {
     const std::vector<Vec2> at = to_vectors<Vec2>(points, "points");
     Placements placements;
@@ -160,7 +179,17 @@ void bind_positioning(py::module_& m) {
            py::kw_only(),
            py::arg("judge") = false,
            py::arg("context"),
-           "As the function `place`.");
+           "As the function `place`.")
+      .def("place_contacts",
+           &Positioner::place_contacts,
+           py::arg("faces"),
+           py::arg("uv"),
+           py::arg("ring_directions"),
+           py::kw_only(),
+           py::arg("context"),
+           "Positions at given first contacts: face index (N,), parameters (N, 2) and, in the set-up frame, the "
+           "direction (N, 3) of the ring's tangent there. Result as of `place`; tilt_deg is the contact angle, 0 "
+           "on the ring's equator and 90 on its bottom.");
   m.def("place",
         &place,
         py::arg("method"),

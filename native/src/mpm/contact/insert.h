@@ -33,7 +33,7 @@ inline ToolPose tilted(const Tool& tool, const Insert& insert, double tilt) {
   return {insert.center + tool.major_radius * (c * insert.v1 - s * insert.w1), c * insert.w1 + s * insert.v1};
 }
 
-// Tilt (radians, in (-pi, pi]) at which the ring reaches a surface point, given in the insert frame: the
+// Tilt (radians, in (-pi/2, 3 pi/2]: no motion starts with the tool turned farther back) at which the ring reaches a surface point, given in the insert frame: the
 // point's circle about u1 meets the lower half of the torus there. NaN where it never does. Closed form: with
 // the power g = |s|^2 - Ri^2 of the point against the insert's ball, y = Ro + g/(4 Ro) - Ro su^2/g and z =
 // -sqrt(sv^2 + sw^2 - y^2); the squared torus terms cancel. Requires Ro > 0. A point inside the ball (g <= 0)
@@ -46,7 +46,7 @@ inline double circular_ray(const Tool& tool, const Vec3& local) {
   const double z2 = local.y() * local.y() + local.z() * local.z() - y * y;
   if (!(z2 >= 0)) return kNaN;
   const double tilt = std::atan2(-std::sqrt(z2), y) - std::atan2(local.z(), local.y());
-  return tilt <= -kPi ? tilt + 2 * kPi : tilt > kPi ? tilt - 2 * kPi : tilt;
+  return tilt <= -kPi / 2 ? tilt + 2 * kPi : tilt > 3 * kPi / 2 ? tilt - 2 * kPi : tilt;
 }
 
 }  // namespace mpm

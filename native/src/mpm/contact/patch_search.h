@@ -29,10 +29,13 @@ struct PatchMinimum {
 
 inline constexpr int kMaxNewtonSteps = 60;  // on one patch
 inline constexpr int kMaxHalvings = 40;     // of one step
-// A contact counts as found when the slope of the gap along the surface is this little ...
-inline constexpr double kParallel = 1e-9;
-// ... and Newton's step promises to gain no more than this (mm or rad).
+// A contact counts as found when the slope of the gap along the surface is this little and Newton's step
+// promises to gain no more than so much (mm or rad).
+inline constexpr double kParallel = 1e-12;
 inline constexpr double kGained = 1e-13;
+// Steps that promise less than kGained are judged by the slope alone, the values being equal to rounding: so
+// many are taken.
+inline constexpr int kPolishingSteps = 2;
 inline constexpr double kHeld = 1e-8;  // slope above which a border contact is held by the border
 inline constexpr double kConvexPart =
     1e-9;  // least eigenvalue against the greatest that Newton's step trusts
@@ -88,7 +91,8 @@ class PatchSearch {
   PatchSearch(const Objective& objective, const BezierPatch& patch)
       : objective_(objective), patch_(patch), box_(patch.box()) {}
 
-  // Runs from (u, v), taken into the patch; the result's value is never greater than the start's.
+  // Runs from (u, v), taken into the patch; the result's value is never greater than the start's
+  // but for kGained a polishing step.
   PatchMinimum run(double u, double v) const {
     PatchMinimum best;
     best.u = std::clamp(u, box_.u0, box_.u1);
@@ -96,6 +100,7 @@ class PatchSearch {
     SurfacePoint p = patch_.evaluate(best.u, best.v);
     best.s = p.s;
     best.value = objective_.value(p.s);
+    int polished = 0;
     for (; best.newton_steps < kMaxNewtonSteps && best.value < kInfinity; ++best.newton_steps) {
       const Derivatives a = objective_.derivatives(p, best.value);
       if (!a.usable()) break;
@@ -104,8 +109,11 @@ class PatchSearch {
       best.on_border_v = !free.v && std::abs(a.gradient.y()) * a.gap_rate > kHeld * p.sv.norm();
       const Vec2 step = bounded_step(best, a, free);
       if (free_slope(a, p, free) <= kParallel && std::abs(a.gradient.dot(step)) <= kGained) break;
-      const bool may_halve = std::abs(a.gradient.dot(step)) > kGained;
-      if (!advance(best, p, step, may_halve ? kMaxHalvings : 1)) break;
+      if (std::abs(a.gradient.dot(step)) > kGained) {
+        if (!advance(best, p, step)) break;
+      } else if (polished++ == kPolishingSteps || !polish(best, p, step)) {
+        break;
+      }
     }
     return best;
   }
@@ -128,9 +136,21 @@ class PatchSearch {
     return part * step;
   }
 
-  // Halves the step until the value is less; false when none of so many steps is.
-  bool advance(PatchMinimum& best, SurfacePoint& p, Vec2 step, int most) const {
-    for (int k = 0; k < most; ++k, step *= 0.5) {
+  // Takes the step unless it makes the value worse by more than rounding.
+  bool polish(PatchMinimum& best, SurfacePoint& p, const Vec2& step) const {
+    const double u = std::clamp(best.u + step.x(), box_.u0, box_.u1);
+    const double v = std::clamp(best.v + step.y(), box_.v0, box_.v1);
+    const SurfacePoint q = patch_.evaluate(u, v);
+    const double value = objective_.value(q.s);
+    if (!(value <= best.value + kGained)) return false;
+    best.value = value, best.u = u, best.v = v, best.s = q.s;
+    p = q;
+    return true;
+  }
+
+  // Halves the step until the value is less; false when no step is.
+  bool advance(PatchMinimum& best, SurfacePoint& p, Vec2 step) const {
+    for (int k = 0; k < kMaxHalvings; ++k, step *= 0.5) {
       const double u = std::clamp(best.u + step.x(), box_.u0, box_.u1);
       const double v = std::clamp(best.v + step.y(), box_.v0, box_.v1);
       if (u == best.u && v == best.v) return false;

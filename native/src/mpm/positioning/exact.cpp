@@ -52,6 +52,7 @@ class Exact final : public Method {
   }
 
   Placement place(const Vec2& at, Counters& counters) const override;
+  Placement place(const GivenContact& at, Counters& counters) const override;
 
  private:
   struct Touch {
@@ -66,7 +67,8 @@ class Exact final : public Method {
     return (touch.at.s - first.at.s).norm() < kMerged;
   }
 
-  void starts_under(const Vec2& at, std::vector<Start>& starts) const;
+  template <class Near>
+  void gather_starts(const Near& near, std::vector<Start>& starts) const;
   template <class Approach>
   Touch best_start(const Approach& approach,
                    const std::vector<Start>& starts,
@@ -88,6 +90,9 @@ class Exact final : public Method {
                    Touch& second,
                    Counters& counters) const;
   void tilt(const Touch& first,
+            const Insert& insert,
+            double open_side,
+            double tilt_max,
             const std::vector<Start>& starts,
             Placement& placement,
             Counters& counters) const;
@@ -100,14 +105,15 @@ class Exact final : public Method {
   CertifyOptions judge_;
 };
 
-// Centres of the cells of about a quarter of the cutter's radius under its shadow.
-void Exact::starts_under(const Vec2& at, std::vector<Start>& starts) const {
+// Centres of the cells of about a quarter of the cutter's radius that `near(centre, radius)` lets through.
+template <class Near>
+void Exact::gather_starts(const Near& near, std::vector<Start>& starts) const {
   starts.clear();
   std::vector<std::uint32_t> stack(tree_.roots().begin(), tree_.roots().end());
   while (!stack.empty()) {
     const CellTree::Node& node = tree_.nodes()[stack.back()];
     stack.pop_back();
-    if ((node.cell.c.head<2>() - at).norm() > tool_.radius() + node.cell.radius) continue;
+    if (!near(node.cell.c, node.cell.radius)) continue;
     if (node.children > 0 && node.cell.radius > kStartPerRadius * tool_.radius()) {
       for (std::uint32_t i = 0; i < node.children; ++i) stack.push_back(node.first_child + i);
       continue;
@@ -216,23 +222,22 @@ void Exact::look_beside(const Tilt& approach,
   if (touch.at.value < second.at.value && !same_contact(touch, first)) second = touch;
 }
 
+// Comes down from the curvature limit or `tilt_max` to the first touch; the range ends at `open_side`.
 void Exact::tilt(const Touch& first,
+                 const Insert& insert,
+                 double open_side,
+                 double tilt_max,
                  const std::vector<Start>& starts,
                  Placement& placement,
                  Counters& counters) const {
-  Insert insert = insert_through(tool_, placement.pose, first.at.s);
-  if (spin_ != 0) {
-    const Mat3 turn = rotation(placement.first_normal, spin_);
-    insert = {insert.center, turn * insert.u1, turn * insert.v1, turn * insert.w1};
-  }
   const SurfacePoint p = model_.faces()[first.face].surface.evaluate(first.at.u, first.at.v);
   const double curvature = curvature_limit(tool_, insert, p, first.at);
-  const double limit = std::max(0.0, std::min(curvature, tilt_max_));
+  const double limit = std::max(0.0, std::min(curvature, tilt_max));
   const Tilt approach(tool_, insert);
   double x = limit;
   Touch second = best_start(approach, starts, x, counters);
   if (second.found() && same_contact(second, first)) second = {};
-  if (curvature <= tilt_max_ && !(second.at.value < curvature - kNearLimit))
+  if (curvature <= tilt_max && !(second.at.value < curvature - kNearLimit))
     look_beside(approach, first, curvature, second, counters);
   if (second.found() && second.at.value < x)
     x = second.at.value;
@@ -240,10 +245,7 @@ void Exact::tilt(const Touch& first,
     second = {};
   const Certificate certificate = first_touch(approach, &first, x, second, counters);
 
-  const double open_side =
-      spin_ != 0 ? -std::atan2(placement.first_normal.dot(insert.w1), placement.first_normal.dot(insert.v1))
-                 : 0.0;
-  const bool merged = second.found() && (second.at.s - first.at.s).norm() < kMerged;
+  const bool merged = second.found() && same_contact(second, first);
   const bool held = first.at.on_border_u || first.at.on_border_v;
   placement.tilt = std::max(x, open_side);
   placement.pose = tilted(tool_, insert, placement.tilt);
@@ -251,7 +253,7 @@ void Exact::tilt(const Touch& first,
     placement.status = PositionStatus::two_contacts;
   else if (x <= open_side + kNoTilt)
     placement.status = PositionStatus::bridged;
-  else if (merged || curvature <= tilt_max_)
+  else if (merged || curvature <= tilt_max)
     placement.status = PositionStatus::curvature_matched;
   else
     placement.status = held ? PositionStatus::edge_contact : PositionStatus::tilt_limited;
@@ -264,7 +266,11 @@ void Exact::tilt(const Touch& first,
 
 Placement Exact::place(const Vec2& at, Counters& counters) const {
   thread_local std::vector<Start> starts;
-  starts_under(at, starts);
+  gather_starts(
+      [&](const Vec3& c, double radius) {
+        return (c.head<2>() - at).squaredNorm() <= (tool_.radius() + radius) * (tool_.radius() + radius);
+      },
+      starts);
   Placement placement;
   placement.status = PositionStatus::off_part;
   const Drop approach(tool_, at);
@@ -281,11 +287,47 @@ Placement Exact::place(const Vec2& at, Counters& counters) const {
       first.body ? placement.pose.axis : Vec3(-ring_distance(tool_, placement.pose, first.at.s).gradient);
   const bool on_axis = !((first.at.s - placement.pose.torus_center).head<2>().norm() > kMerged);
   if (tool_.major_radius > 0 && !on_axis && !first.body && certificate.verdict == Verdict::free) {
-    tilt(first, starts, placement, counters);
+    Insert insert = insert_through(tool_, placement.pose, first.at.s);
+    double open_side = 0;
+    if (spin_ != 0) {
+      const Vec3& normal = placement.first_normal;
+      const Mat3 turn = rotation(normal, spin_);
+      insert = {insert.center, turn * insert.u1, turn * insert.v1, turn * insert.w1};
+      open_side = -std::atan2(normal.dot(insert.w1), normal.dot(insert.v1));
+    }
+    tilt(first, insert, open_side, tilt_max_, starts, placement, counters);
   } else {
     placement.status = PositionStatus::one_contact;
     finish(placement, certificate);
   }
+  return placement;
+}
+
+// The insert's frame starts on the equator: v1 along the normal, the tool lying on the surface, and its far side
+// comes down from there.
+Placement Exact::place(const GivenContact& at, Counters& counters) const {
+  Placement placement;
+  const Face& face = model_.faces()[at.face];
+  const ParamBox& domain = face.surface.domain();
+  placement.status = PositionStatus::off_part;
+  if (at.u < domain.u0 || at.u > domain.u1 || at.v < domain.v0 || at.v > domain.v1) return placement;
+  if (face.check || !face.trim.contains(at.u, at.v)) return placement;
+  const SurfacePoint p = face.surface.evaluate(at.u, at.v);
+  Vec3 normal = p.su.cross(p.sv).normalized();
+  if (normal.z() < 0) normal = -normal;
+  const Vec3 u1 = (at.ring_direction - at.ring_direction.dot(normal) * normal).normalized();
+  placement.status = PositionStatus::undecided;
+  // A pole has no normal, and a direction along the normal no part along the surface.
+  if (!normal.allFinite() || !u1.allFinite() || !(tool_.major_radius > 0)) return placement;
+  const Insert insert{p.s + tool_.minor_radius * normal, u1, normal, u1.cross(normal)};
+  placement.first_contact = p.s, placement.first_normal = normal;
+  placement.spin = 0;
+  Touch first{at.face, {}, false};
+  first.at.value = 0, first.at.u = at.u, first.at.v = at.v, first.at.s = p.s;
+  thread_local std::vector<Start> starts;
+  const double reach = 2 * tool_.radius();
+  gather_starts([&](const Vec3& c, double radius) { return (c - p.s).norm() <= reach + radius; }, starts);
+  tilt(first, insert, 0, kPi / 2 + tilt_max_, starts, placement, counters);
   return placement;
 }
 

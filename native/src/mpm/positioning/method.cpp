@@ -48,19 +48,45 @@ std::unique_ptr<Method> make_method(const std::string& name,
   throw std::invalid_argument("unknown method '" + name + "'; there are: " + names_of(methods()));
 }
 
-Placements place_all(const Method& method, const std::vector<Vec2>& points, Context& context) {
+Placement Method::place(const GivenContact&, Counters&) const {
+  throw std::invalid_argument("this method cannot start from given contacts; exact can");
+}
+
+namespace {
+
+template <class Start>
+Placements place_each(const Method& method, const std::vector<Start>& starts, Context& context) {
   Placements result;
-  result.positions.resize(points.size());
+  result.positions.resize(starts.size());
   std::mutex adding;
-  context.start(points.size());
-  for_each_range(points.size(), kGrain, context, [&](std::size_t begin, std::size_t end) {
+  context.start(starts.size());
+  for_each_range(starts.size(), kGrain, context, [&](std::size_t begin, std::size_t end) {
     Counters work;
     for (std::size_t i = begin; i < end && !context.cancelled(); ++i)
-      result.positions[i] = method.place(points[i], work);
+      result.positions[i] = method.place(starts[i], work);
     const std::lock_guard lock(adding);
     result.counters.add(work);
   });
   return result;
+}
+
+}  // namespace
+
+Placements place_all(const Method& method, const std::vector<Vec2>& points, Context& context) {
+  return place_each(method, points, context);
+}
+
+Placements place_all(const Method& method,
+                     const SurfaceModel& model,
+                     const std::vector<GivenContact>& contacts,
+                     Context& context) {
+  for (const GivenContact& c : contacts) {
+    require(c.face < model.faces().size(), "faces: a contact names a face that the model does not have");
+    require(std::isfinite(c.u) && std::isfinite(c.v), "uv: parameters must be finite numbers");
+    require(c.ring_direction.allFinite() && !c.ring_direction.isZero(0),
+            "ring_directions: each must be a finite vector, not zero");
+  }
+  return place_each(method, contacts, context);
 }
 
 void judge_by_sampling(const SurfaceModel& model,

@@ -60,6 +60,14 @@ struct MethodOptions {
   std::map<std::string, double> numbers;  // the method's own, by name; unknown names are refused
 };
 
+// A first contact that is given instead of dropped to: the tool is to touch at (u, v) of a face with the tangent
+// of its ring there along `ring_direction` (set-up frame, any length; its part along the surface counts).
+struct GivenContact {
+  std::uint32_t face;
+  double u, v;
+  Vec3 ring_direction;
+};
+
 // Positions one tool on one model. Set-up frame: the tool comes from +z. place() may be called from several
 // threads.
 class Method {
@@ -67,6 +75,10 @@ class Method {
   virtual ~Method() = default;
   // The tool over plan point `at`. Never throws for what the mathematics brings: that is the status.
   virtual Placement place(const Vec2& at, Counters& counters) const = 0;
+  // The tool at a given contact, come down from the open side. `tilt` of the result is the contact angle: 0 on
+  // the ring's equator, 90 degrees on its bottom. Throws std::invalid_argument where the method has no such
+  // entry.
+  virtual Placement place(const GivenContact& at, Counters& counters) const;
 };
 
 struct MethodInfo {
@@ -91,6 +103,11 @@ struct Placements {
 
 // Every point in parallel; the result does not depend on the number of threads.
 Placements place_all(const Method& method, const std::vector<Vec2>& points, Context& context);
+// Throws std::invalid_argument for a face that the model does not have and a direction that is none.
+Placements place_all(const Method& method,
+                     const SurfaceModel& model,
+                     const std::vector<GivenContact>& contacts,
+                     Context& context);
 
 // Fills clearance_hi of every placed position by dense sampling (see gouge/clearance_sampler.h).
 void judge_by_sampling(const SurfaceModel& model, const Tool& tool, Placements& placements, Context& context);
