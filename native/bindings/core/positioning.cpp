@@ -156,9 +156,8 @@ void bind_positioning(py::module_& m) {
   py::list names;
   for (const char* name : kPositionStatusNames) names.append(name);
   m.attr("POSITION_STATUS") = py::tuple(names);
-  py::class_<Positioner>(m,
-                         "Positioner",
-                         "A method of METHODS, with its options, made ready for one model and tool.")
+  py::class_<Positioner>(
+      m, "Positioner", "A method of METHODS, with its options, made ready for one model and tool.")
       .def(py::init<const std::string&,
                     const SurfaceModel&,
                     const Tool&,
@@ -187,8 +186,10 @@ void bind_positioning(py::module_& m) {
            py::arg("ring_directions"),
            py::kw_only(),
            py::arg("context"),
-           "Positions at given first contacts: face index (N,), parameters (N, 2) and, in the set-up frame, the "
-           "direction (N, 3) of the ring's tangent there. Result as of `place`; tilt_deg is the contact angle, 0 "
+           "Positions at given first contacts: face index (N,), parameters (N, 2) and, in the set-up frame, "
+           "the "
+           "direction (N, 3) of the ring's tangent there. Result as of `place`; tilt_deg is the contact "
+           "angle, 0 "
            "on the ring's equator and 90 on its bottom.");
   m.def("place",
         &place,

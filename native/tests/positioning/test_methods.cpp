@@ -83,6 +83,30 @@ TEST_P(OnThesisSurface, ExactNeverTiltsLessThanVcrfWhereVcrfIsFree) {
   }
 }
 
+// Dropped to a contact and tilted, or come down from the open side at that contact: two ways to one pose.
+TEST_P(OnThesisSurface, AGivenContactHasThePoseOfTheDropThatFindsIt) {
+  const std::vector<Vec2> points = every(thesis_footprint(), 7);
+  const Placements dropped = place("exact", model, points);
+  const auto method = make_method("exact", model, tool, {});
+  int compared = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Placement& one = dropped.positions[i];
+    const Vec3& p = one.first_contact;
+    if (p.head<2>().minCoeff() < 1 || p.head<2>().maxCoeff() > 149) continue;  // an edge may hold it
+    // The poles are even in x and y, so the parameters are the coordinates; u1 = v1 x z at the drop.
+    const Vec2 inward = points[i] - p.head<2>();
+    Counters counters;
+    const Placement again =
+        method->place(GivenContact{0, p.x() / 150, p.y() / 150, Vec3(inward.y(), -inward.x(), 0)}, counters);
+    EXPECT_EQ(again.status, one.status);
+    EXPECT_LT((again.pose.torus_center - one.pose.torus_center).norm(), 1e-8);
+    EXPECT_LT((again.pose.axis - one.pose.axis).norm(), radians(1e-7));
+    EXPECT_GE(again.clearance_lo, -1e-3);
+    ++compared;
+  }
+  EXPECT_GT(compared, 50);
+}
+
 TEST_P(OnThesisSurface, ThreadsAndOrderDoNotChangeABit) {
   const std::vector<Vec2> points = every(thesis_footprint(), 31);
   std::vector<Vec2> reversed(points.rbegin(), points.rend());
@@ -148,6 +172,40 @@ TEST(Methods, OffThePartIsAStatus) {
   const SurfaceModel model = testing::inclined_plane(0);
   for (const char* method : {"vcrf", "exact"})
     EXPECT_EQ(place(method, model, {Vec2(300, 50)}).positions[0].status, PositionStatus::off_part);
+}
+
+// On a plane the contact angle that is asked for has one answer: the ring lies on it all round, or stops at
+// the limit.
+TEST(GivenContacts, OnAPlane) {
+  const SurfaceModel model = testing::inclined_plane(0.2);
+  const Tool tool = testing::thesis_tool();
+  const auto method = make_method("exact", model, tool, {});
+  Counters counters;
+  const Placement one = method->place(GivenContact{0, 0.5, 0.5, Vec3(0, 1, 0)}, counters);
+  const Vec3 normal = Vec3(-0.2, 0, 1).normalized();
+  EXPECT_LT((one.pose.axis - normal).norm(), 1e-6) << one.pose.axis.transpose();
+  EXPECT_NEAR(one.tilt, kPi / 2, 1e-6);
+  EXPECT_GE(one.clearance_lo, -1e-3);
+}
+
+TEST(GivenContacts, MistakesAndPlacesThatAreNone) {
+  const SurfaceModel model = testing::inclined_plane(0.2);
+  const Tool tool = testing::thesis_tool();
+  const auto exact = make_method("exact", model, tool, {}), vcrf = make_method("vcrf", model, tool, {});
+  Context context(1);
+  const GivenContact good{0, 0.5, 0.5, Vec3(0, 1, 0)};
+  EXPECT_THROW(place_all(*vcrf, model, {good}, context), std::invalid_argument);
+  EXPECT_THROW(place_all(*exact, model, {GivenContact{1, 0.5, 0.5, Vec3(0, 1, 0)}}, context),
+               std::invalid_argument);
+  EXPECT_THROW(place_all(*exact, model, {GivenContact{0, 0.5, 0.5, Vec3::Zero()}}, context),
+               std::invalid_argument);
+  const Placements none =
+      place_all(*exact,
+                model,
+                {GivenContact{0, 1.5, 0.5, Vec3(0, 1, 0)}, GivenContact{0, 0.5, 0.5, Vec3(-0.2, 0, 1)}},
+                context);
+  EXPECT_EQ(none.positions[0].status, PositionStatus::off_part);
+  EXPECT_EQ(none.positions[1].status, PositionStatus::undecided);
 }
 
 }  // namespace

@@ -131,8 +131,8 @@ QuadraticBound ClearanceBound::ring(const QuadraticCell& cell, const Meridian& a
           E.n + 2 * (kp * A.p * B.p + kt * A.t * B.t),
           F.n + kp * B.p * B.p + kt * B.t * B.t,
           cell.error + (kp < 0 ? -kp * p_rest * p_rest : 0.0) +
-              2 * kt * t_linear * std::abs(nz) * bulge_rest + std::abs(aaa) + std::abs(aab) +
-              std::abs(abb) + std::abs(bbb)};
+              2 * kt * t_linear * std::abs(nz) * bulge_rest + std::abs(aaa) + std::abs(aab) + std::abs(abb) +
+              std::abs(bbb)};
 }
 
 ClearanceBound::Answer ClearanceBound::pieces(const QuadraticCell& cell,

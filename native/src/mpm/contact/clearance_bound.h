@@ -60,7 +60,7 @@ class ClearanceBound {
   const Tool& tool_;
   ToolPose pose_;
   const RingKernel& kernel_;
-  RingFrame frame_;      // its rounding (mm) is the error of everything computed here (docs/numerics.md)
+  RingFrame frame_;  // its rounding (mm) is the error of everything computed here (docs/numerics.md)
 };
 
 }  // namespace mpm

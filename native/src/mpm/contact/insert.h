@@ -33,11 +33,11 @@ inline ToolPose tilted(const Tool& tool, const Insert& insert, double tilt) {
   return {insert.center + tool.major_radius * (c * insert.v1 - s * insert.w1), c * insert.w1 + s * insert.v1};
 }
 
-// Tilt (radians, in (-pi/2, 3 pi/2]: no motion starts with the tool turned farther back) at which the ring reaches a surface point, given in the insert frame: the
-// point's circle about u1 meets the lower half of the torus there. NaN where it never does. Closed form: with
-// the power g = |s|^2 - Ri^2 of the point against the insert's ball, y = Ro + g/(4 Ro) - Ro su^2/g and z =
-// -sqrt(sv^2 + sw^2 - y^2); the squared torus terms cancel. Requires Ro > 0. A point inside the ball (g <= 0)
-// gives NaN: no tilt brings the ring to it.
+// Tilt (radians, in (-pi/2, 3 pi/2]: no motion starts with the tool turned farther back) at which the ring
+// reaches a surface point, given in the insert frame: the point's circle about u1 meets the lower half of the
+// torus there. NaN where it never does. Closed form: with the power g = |s|^2 - Ri^2 of the point against the
+// insert's ball, y = Ro + g/(4 Ro) - Ro su^2/g and z = -sqrt(sv^2 + sw^2 - y^2); the squared torus terms
+// cancel. Requires Ro > 0. A point inside the ball (g <= 0) gives NaN: no tilt brings the ring to it.
 inline double circular_ray(const Tool& tool, const Vec3& local) {
   const double power = local.squaredNorm() - tool.minor_radius * tool.minor_radius;
   if (!(power > 0)) return kNaN;

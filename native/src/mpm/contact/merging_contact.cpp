@@ -37,8 +37,8 @@ class Valley {
     directions_ = metric.inverse() * (jacobian.transpose() * wanted);
     // The gap's second-order form at P: where it is least across, for a step along.
     const auto bending = [&](const Vec2& a, const Vec2& b) {
-      const Vec3 second = a.x() * b.x() * p.suu + (a.x() * b.y() + a.y() * b.x()) * p.suv +
-                          a.y() * b.y() * p.svv;
+      const Vec3 second =
+          a.x() * b.x() * p.suu + (a.x() * b.y() + a.y() * b.x()) * p.suv + a.y() * b.y() * p.svv;
       return normal.dot(second);
     };
     const Vec2 u = directions_.col(0), v = directions_.col(1);

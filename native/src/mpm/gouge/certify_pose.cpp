@@ -23,7 +23,7 @@ constexpr double kModelPart = 1.0 / 256;
 struct Group {
   enum class Kind : std::uint8_t { roots, children, quarters };
   Kind kind;
-  std::uint8_t cells;  // lanes in use, a bit each
+  std::uint8_t cells;        // lanes in use, a bit each
   std::uint8_t trimmed = 0;  // quarters: lanes that a trim boundary crosses
   std::uint32_t node;        // roots: the first one's place in roots(); else the parent, quarters: the leaf
   std::uint32_t batch;       // of the tree's root batches, its batches, or the arena
@@ -137,10 +137,10 @@ class Search {
                double center,
                const RingAnswer& ring) const {
     const bool quarter = group.kind == Group::Kind::quarters;
-    const std::uint32_t index =
-        quarter                            ? group.node
-        : group.kind == Group::Kind::roots ? tree_.roots()[group.node + std::uint32_t(lane)]
-                                           : tree_.nodes()[group.node].first_child + std::uint32_t(lane);
+    const std::uint32_t index = quarter ? group.node
+                                : group.kind == Group::Kind::roots
+                                    ? tree_.roots()[group.node + std::uint32_t(lane)]
+                                    : tree_.nodes()[group.node].first_child + std::uint32_t(lane);
     const CellTree::Node& node = tree_.nodes()[index];
     return {node,
             index,
@@ -183,7 +183,8 @@ class Search {
 
   bool look_at_center(const Cell& cell) {
     const double u = cell.box.u_mid(), v = cell.box.v_mid();
-    if (!cell.quarter) return look_at(cell.trimmed, cell.radius, {cell.node.face, u, v, cell.node.cell.c, cell.center});
+    if (!cell.quarter)
+      return look_at(cell.trimmed, cell.radius, {cell.node.face, u, v, cell.node.cell.c, cell.center});
     if (cell.center - cell.error >= result_.hi) return true;
     // The centre of a quarter is only near the surface.
     const Vec3 s = cell.node.patch->point(u, v);

@@ -12,7 +12,7 @@
 namespace mpm {
 namespace {
 
-constexpr double kLeafPerRadius = 1.0 / 6;  // finest precomputed cells against the cutter's radius
+constexpr double kLeafPerRadius = 1.0 / 6;   // finest precomputed cells against the cutter's radius
 constexpr double kStartPerRadius = 1.0 / 4;  // cells whose centres start the searches
 constexpr double kSharpness = 1e-9;          // mm: contacts are found to this depth
 constexpr double kSharpRoundoff = 4096 * kRoundoff;
@@ -26,7 +26,8 @@ constexpr int kBisections = 50;
 constexpr double kMerged = 0.02;  // mm: a second contact nearer than this is the first
 constexpr double kNearLimit =
     0.01;  // rad: a second contact this close to the curvature limit may have rivals
-constexpr double kNoTilt = 1e-9;                          // rad
+constexpr double kNoDirection = 1e-9;  // part along the surface that a direction must have
+constexpr double kNoTilt = 1e-9;       // rad
 
 struct Start {
   std::uint32_t face;
@@ -79,16 +80,10 @@ class Exact final : public Method {
   template <class Approach>
   double body_arrival(const Approach& approach, double x, const Vec3& s) const;
   template <class Approach>
-  Certificate first_touch(const Approach& approach,
-                          const Touch* first,
-                          double& x,
-                          Touch& touch,
-                          Counters& counters) const;
-  void look_beside(const Tilt& approach,
-                   const Touch& first,
-                   double curvature,
-                   Touch& second,
-                   Counters& counters) const;
+  Certificate first_touch(
+      const Approach& approach, const Touch* first, double& x, Touch& touch, Counters& counters) const;
+  void look_beside(
+      const Tilt& approach, const Touch& first, double curvature, Touch& second, Counters& counters) const;
   void tilt(const Touch& first,
             const Insert& insert,
             double open_side,
@@ -210,11 +205,8 @@ void Exact::finish(Placement& placement, const Certificate& certificate) const {
 
 // A second contact that is about to merge with the first comes only a little before the curvature limit, and
 // no start's own arrival need lead to it.
-void Exact::look_beside(const Tilt& approach,
-                        const Touch& first,
-                        double curvature,
-                        Touch& second,
-                        Counters& counters) const {
+void Exact::look_beside(
+    const Tilt& approach, const Touch& first, double curvature, Touch& second, Counters& counters) const {
   const Face& face = model_.faces()[first.face];
   const auto start = merging_contact(tool_, approach, face, first.at, curvature);
   if (!start) return;
@@ -303,8 +295,8 @@ Placement Exact::place(const Vec2& at, Counters& counters) const {
   return placement;
 }
 
-// The insert's frame starts on the equator: v1 along the normal, the tool lying on the surface, and its far side
-// comes down from there.
+// The insert's frame starts on the equator: v1 along the normal, the tool lying on the surface, and its far
+// side comes down from there.
 Placement Exact::place(const GivenContact& at, Counters& counters) const {
   Placement placement;
   const Face& face = model_.faces()[at.face];
@@ -315,10 +307,12 @@ Placement Exact::place(const GivenContact& at, Counters& counters) const {
   const SurfacePoint p = face.surface.evaluate(at.u, at.v);
   Vec3 normal = p.su.cross(p.sv).normalized();
   if (normal.z() < 0) normal = -normal;
-  const Vec3 u1 = (at.ring_direction - at.ring_direction.dot(normal) * normal).normalized();
+  const Vec3 along = at.ring_direction - at.ring_direction.dot(normal) * normal;
+  const bool has_direction = along.norm() > kNoDirection * at.ring_direction.norm();
+  const Vec3 u1 = along.normalized();
   placement.status = PositionStatus::undecided;
   // A pole has no normal, and a direction along the normal no part along the surface.
-  if (!normal.allFinite() || !u1.allFinite() || !(tool_.major_radius > 0)) return placement;
+  if (!normal.allFinite() || !has_direction || !(tool_.major_radius > 0)) return placement;
   const Insert insert{p.s + tool_.minor_radius * normal, u1, normal, u1.cross(normal)};
   placement.first_contact = p.s, placement.first_normal = normal;
   placement.spin = 0;

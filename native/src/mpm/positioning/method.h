@@ -60,8 +60,9 @@ struct MethodOptions {
   std::map<std::string, double> numbers;  // the method's own, by name; unknown names are refused
 };
 
-// A first contact that is given instead of dropped to: the tool is to touch at (u, v) of a face with the tangent
-// of its ring there along `ring_direction` (set-up frame, any length; its part along the surface counts).
+// A first contact that is given instead of dropped to: the tool is to touch at (u, v) of a face with the
+// tangent of its ring there along `ring_direction` (set-up frame, any length; its part along the surface
+// counts).
 struct GivenContact {
   std::uint32_t face;
   double u, v;
@@ -75,9 +76,9 @@ class Method {
   virtual ~Method() = default;
   // The tool over plan point `at`. Never throws for what the mathematics brings: that is the status.
   virtual Placement place(const Vec2& at, Counters& counters) const = 0;
-  // The tool at a given contact, come down from the open side. `tilt` of the result is the contact angle: 0 on
-  // the ring's equator, 90 degrees on its bottom. Throws std::invalid_argument where the method has no such
-  // entry.
+  // The tool at a given contact, come down from the open side. `tilt` of the result is the contact angle: 0
+  // on the ring's equator, 90 degrees on its bottom. Throws std::invalid_argument where the method has no
+  // such entry.
   virtual Placement place(const GivenContact& at, Counters& counters) const;
 };
 
