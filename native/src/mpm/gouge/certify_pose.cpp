@@ -118,11 +118,12 @@ class Search {
       ++result_.cells;
       double lower = ring.lower[lane], center = ring.center[lane];
       // What the ring leaves open is split whatever the rest of the body says.
-      if (lower >= -wanted && !(ring.below_pieces >> lane & 1)) {
+      const auto settled = [&] { return lower >= -wanted || lower >= deep_enough_; };
+      if (settled() && !(ring.below_pieces >> lane & 1)) {
         const ClearanceBound::Answer rest = bound_.pieces(get_lane(cells_of(group), lane), options_.enough);
         lower = std::min(lower, rest.lower), center = std::min(center, rest.center);
       }
-      if (lower >= -wanted || lower >= deep_enough_)
+      if (settled())
         result_.lo = std::min(result_.lo, lower);
       else if (!open(cell_of(group, cells_of(group), lane, lower, center, ring)))
         return false;
