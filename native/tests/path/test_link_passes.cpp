@@ -50,7 +50,7 @@ ToolPath link(const SurfaceModel& model,
   return link_passes(model, tool, positions, options, context);
 }
 
-PathPositions one_position(const Vec3& tip, const Vec3& axis) { return {{tip}, {axis}, {0}, {1}}; }
+PathPositions one_position(const Vec3& tip, const Vec3& axis) { return {{tip}, {axis}, {0}, {1}, {}}; }
 
 // Every usable position ends exactly one cut or plunge, in order, where it stands.
 void expect_complete(const ToolPath& path, const PathPositions& positions) {
@@ -126,6 +126,21 @@ TEST(LinkPasses, LeavesOutUnusablePositions) {
   expect_complete(path, positions);
   EXPECT_EQ(count(path, MoveKind::plunge), 2u);
   EXPECT_EQ(count(path, MoveKind::cut), 3u);
+}
+
+// Proven clearances stand in for sampling: none, no cut; and they are what the cut reports.
+TEST(LinkPasses, CutsOnlyWhatIsProvenWhereThereIsAProof) {
+  PathPositions positions = raster_on_floor(1, 4, false);
+  positions.cut_clearance = {kNaN, -0.004, kNaN, -0.002};
+  const ToolPath path = link(model_of({floor_100()}), positions);
+  expect_complete(path, positions);
+  EXPECT_EQ(count(path, MoveKind::plunge), 2u);
+  std::vector<double> cuts;
+  for (std::size_t i = 0; i < path.size(); ++i)
+    if (path.kind[i] == MoveKind::cut) cuts.push_back(path.clearance[i]);
+  EXPECT_EQ(cuts, (std::vector<double>{-0.004, -0.002}));
+  positions.cut_clearance.pop_back();
+  EXPECT_THROW(link(model_of({floor_100()}), positions), std::invalid_argument);
 }
 
 TEST(LinkPasses, NoUsablePositionGivesAnEmptyPath) {
