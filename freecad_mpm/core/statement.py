@@ -22,15 +22,20 @@ def statement(positions: Positions, path: Path, tolerance: Tolerance, guarantee:
     usable = int(np.count_nonzero(positions.usable))
     bad = gouging(positions, tolerance) | undecided(positions, tolerance, guarantee)
     good = usable - int(np.count_nonzero(bad & positions.usable))
+    left_out = len(positions) - usable
     cuts = int(np.count_nonzero(path.kind == "cut"))
     good_cuts = cuts - int(np.count_nonzero(digging(path, tolerance, guarantee)))
     sentence = (
-        f"free to {_micrometres(tolerance.gouge_mm)} at {_of(good, len(positions), 'positions')}, "
+        f"free to {_micrometres(tolerance.gouge_mm)} at {_of(good, usable, 'positions')}, "
         f"within {_micrometres(cut_depth_mm(tolerance, guarantee))} on {_of(good_cuts, cuts, 'cuts')} between them, "
         f"{'proven' if guarantee == PROVEN else 'sampled: no proof'}"
     )
     gaps = not_cut(positions, path)
-    return sentence + (f"; {gaps} moves between neighbours are not cut" if gaps else "")
+    return (
+        sentence
+        + (f"; {gaps} moves between neighbours are not cut" if gaps else "")
+        + (f"; {left_out} positions are left out" if left_out else "")
+    )
 
 
 def _of(good: int, count: int, what: str) -> str:

@@ -154,8 +154,7 @@ TEST(CertifyMotion, ARockingToolIsDeepestWhereTheClosedFormSays) {
   EXPECT_TRUE(gouge.time < 0.1 || gouge.time > 0.9) << gouge.time;
 }
 
-// A ball that runs along the chord of two touching positions cuts into a convex sphere-like crown by the
-// sagitta; the same chord over the plane does not.
+// A ball that runs along the chord of two touching positions cuts into a convex crown by the sagitta.
 TEST(CertifyMotion, TheSagittaOfAChordDecides) {
   const SurfaceModel model = testing::thesis_model(testing::Thesis::convex);
   const Tool ball{0, 6, 6, 40, {}};
@@ -178,6 +177,80 @@ TEST(CertifyMotion, TheSagittaOfAChordDecides) {
   }
   EXPECT_GT(free, 0);
   EXPECT_GT(gouging, 0);
+}
+
+// An eighth of a sphere about the origin, rational biquadratic, as a surface of revolution.
+SurfaceModel sphere_octant(double radius) {
+  const double w = std::sqrt(0.5), r = radius;
+  const std::vector<double> knots{0, 0, 0, 1, 1, 1};
+  const std::vector<Vec3> poles{
+      {r, 0, 0}, {r, r, 0}, {0, r, 0}, {r, 0, r}, {r, r, r}, {0, r, r}, {0, 0, r}, {0, 0, r}, {0, 0, r}};
+  return testing::one_face(BSplineSurface(2, 2, knots, knots, poles, {1, w, 1, w, w * w, w, 1, w, 1}));
+}
+
+// The clearance of a ball that passes a sphere is the distance of the sphere's centre from its line, less the
+// radii, whatever its axis does meanwhile.
+TEST(CertifyMotion, ABallOverASphereHasTheClosedForm) {
+  const double sphere = 80;
+  const SurfaceModel model = sphere_octant(sphere);
+  const Tool ball{0, 6, 6, 40, {}};
+  const Vec3 out = Vec3(1, 1, 1).normalized(), along = Vec3(1, -1, 0).normalized();
+  for (double least : {-0.0105, -0.0095, -0.005, 0.3})
+    for (double turn : {0.0, 0.1, 0.6}) {
+      const Vec3 middle = (sphere + ball.minor_radius + least) * out;
+      const Vec3 axis_to = (Vec3::UnitZ() + turn * out).normalized();
+      const ToolPose from{middle - 2 * along, Vec3::UnitZ()}, to{middle + 2 * along, axis_to};
+      // The tip runs straight, not the centre: without a turn both do.
+      const CellTree tree(model, 1.0);
+      const MotionCertificate c = certify_motion(tree, ball, from, to, {}, Context{});
+      if (turn > 0) {
+        double met = kInfinity;
+        for (int k = 0; k <= 1000; ++k) {
+          const TipPose at = pose_between({from.tip(ball), from.axis}, {to.tip(ball), to.axis}, k / 1000.0);
+          met = std::min(met, (at.tip + ball.minor_radius * at.axis).norm() - sphere - ball.minor_radius);
+        }
+        EXPECT_EQ(c.verdict, met < -kTolerance ? Verdict::gouge : Verdict::free) << met;
+        EXPECT_LE(c.lo, met + kTiny);
+      } else {
+        EXPECT_EQ(c.verdict, least < -kTolerance ? Verdict::gouge : Verdict::free);
+        EXPECT_LE(c.lo, least + kTiny);
+        EXPECT_GE(c.hi, least - kTiny);
+      }
+    }
+}
+
+// Moves pressed into the surface until the sampled depth is just within, then just beyond the tolerance: the
+// proof must give way between the two.
+TEST(CertifyMotion, ADepthJustBeyondTheToleranceIsNeverFree) {
+  const SurfaceModel model = testing::thesis_model(testing::Thesis::saddle);
+  const Tool tool{6.7, 6.0, 2.0, 30.0, {{12.7, 12.7, 20}}};
+  const ClearanceSampler sampler(model, tool);
+  int proven = 0;
+  for (Move move : random_moves({20, 20, 95}, {130, 130, 100}, 1.5, 0.03, 6)) {
+    const auto press_to = [&](double depth) {
+      double found = kInfinity;
+      for (int k = 0; k < 5; ++k) {
+        found = sampled(sampler, tool, move, 0);
+        const double by = std::min(found, tool.radius()) + depth;
+        move.from.tip.z() -= by, move.to.tip.z() -= by;
+      }
+      return sampled(sampler, tool, move, 0);
+    };
+    const double within = press_to(0.009);
+    const MotionCertificate good = certify(model, tool, move);
+    EXPECT_LE(good.lo, within + kTiny);
+    proven += good.verdict == Verdict::free;
+    const double beyond = press_to(0.0101);
+    EXPECT_LT(beyond, -kTolerance);
+    EXPECT_EQ(certify(model, tool, move).verdict, Verdict::gouge);
+  }
+  EXPECT_GT(proven, 3);
+}
+
+TEST(CertifyMotion, OppositeAxesAreUndecided) {
+  const SurfaceModel model = testing::inclined_plane(0);
+  const Move move{{{50, 50, 200}, Vec3::UnitZ()}, {{50, 50, 200}, -Vec3::UnitZ()}};
+  EXPECT_EQ(certify(model, testing::thesis_tool(), move).verdict, Verdict::undecided);
 }
 
 TEST(CertifyMotion, AThinWallBetweenTwoFreePosesIsFound) {

@@ -193,6 +193,8 @@ MotionCertificate certify_motion(const CellTree& tree,
                                  const ToolPose& to,
                                  const CertifyMotionOptions& options,
                                  const Context& context) {
+  const double turn = std::atan2(from.axis.cross(to.axis).norm(), from.axis.dot(to.axis));
+  if (turn > kPi - kOppositeSlack) return {};
   return Search(tree, tool, from, to, options, context).run();
 }
 
@@ -206,10 +208,6 @@ std::vector<MotionCertificate> certify_motions(const SurfaceModel& model,
   require(from.size() == to.size(), "tips, axes, tips_to and axes_to must have the same length");
   check_poses(from, "tips", "axes");
   check_poses(to, "tips_to", "axes_to");
-  for (std::size_t i = 0; i < from.size(); ++i)
-    require(std::atan2(from[i].axis.cross(to[i].axis).norm(), from[i].axis.dot(to[i].axis)) <
-                kPi - kOppositeSlack,
-            "axes_to: motion " + std::to_string(i) + " must not turn the axis to its opposite");
   require(std::isfinite(options.tolerance) && options.tolerance >= 0, "tolerance_mm must not be negative");
   require(std::isfinite(options.axis_deviation) && options.axis_deviation >= 0,
           "axis_deviation_deg must not be negative");

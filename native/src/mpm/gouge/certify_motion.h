@@ -33,7 +33,7 @@ struct CertifyMotionOptions {
 // at the witness; undecided: the budget ran out, or a point was found so deep that the deviation could take
 // it beyond the tolerance, or the call was cancelled. Unless free, lo is -infinity.
 //
-// Requires axes that are not opposite. Pieces of trimmed faces too small to tell from their border count as
+// Pieces of trimmed faces too small to tell from their border count as
 // surface, as in certify_pose.
 MotionCertificate certify_motion(const CellTree& tree,
                                  const Tool& tool,
@@ -44,7 +44,7 @@ MotionCertificate certify_motion(const CellTree& tree,
 
 // Every motion in parallel; the result does not depend on the number of threads. Motions that a cancel left
 // out are undecided. Throws std::invalid_argument for arrays of different length, numbers that are not
-// finite, axes that are not unit vectors or opposite, and a tolerance or deviation that is negative.
+// finite, axes that are not unit vectors, and a tolerance or deviation that is negative.
 std::vector<MotionCertificate> certify_motions(const SurfaceModel& model,
                                                const Tool& tool,
                                                const std::vector<ToolPose>& from,
