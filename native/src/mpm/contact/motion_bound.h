@@ -72,7 +72,7 @@ class MotionBound {
     double center;  // mm: signed distance of c at the middle of the stretch
   };
   // Stops refining the bound when it has reached `enough`. First order by the radius, then second order with
-  // the tool's signed curvature (docs/methods/motion.md).
+  // the tool's signed curvature (docs/motion.md).
   Answer operator()(const MovingCell& cell, double enough) const;
 
  private:
