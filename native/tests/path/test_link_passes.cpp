@@ -179,7 +179,8 @@ TEST(LinkPasses, BreaksACutThatTurnsTooFar) {
 TEST(LinkPasses, BreaksACutThroughARidge) {
   // A thin upright ridge that the tool clears at both positions stands between them.
   const Face ridge = bilinear({50, 0, -9}, {50, 100, -9}, {50, 0, 9}, {50, 100, 9});
-  const PathPositions positions{{{36, 50, 0}, {64, 50, 0}}, {Vec3::UnitZ(), Vec3::UnitZ()}, {0, 0}, {1, 1}, {}};
+  const PathPositions positions{
+      {{36, 50, 0}, {64, 50, 0}}, {Vec3::UnitZ(), Vec3::UnitZ()}, {0, 0}, {1, 1}, {}};
   EXPECT_EQ(count(link(model_of({ridge}), positions, {.cut_length_max = 50.0}), MoveKind::plunge), 2u);
 }
 
