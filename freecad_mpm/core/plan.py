@@ -34,6 +34,7 @@ class Positions:
     tilt_deg: Floats  # (N,)
     spin_deg: Floats  # (N,)
     pass_index: Integers  # (N,), from 0
+    inserted: Flags  # (N,): not of the footprint, but put between two of its positions to prove the cut
 
     def __len__(self) -> int:
         return len(self.status)
@@ -53,7 +54,7 @@ class Path:
     axis: Floats  # (M, 3)
     position: Integers  # (M,), index of the position the move ends in, -1: none
     pass_index: Integers  # (M,)
-    clearance: Floats  # (M,), least clearance sampled along the move
+    clearance: Floats  # (M,), least clearance along the move: the proven bound of a proven cut, else sampled
     blocked: Flags  # (M,): no free way was found
 
     def __len__(self) -> int:

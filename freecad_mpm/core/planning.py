@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .. import _core
-from . import report
+from . import motions, report
 from .errors import blame
 from .faces import FaceArrays
 from .frame import Frame
@@ -19,7 +19,7 @@ from .plan import Flags, Floats, Integers, Path, Plan, Positions
 from .sections import suggestion
 from .shop import find_shop, run_machine
 from .stages import Cancel, Progress, Stages
-from .verdict import judge
+from .verdict import PROVEN, judge
 
 # A cut may join positions that are this many forward steps apart; the pattern itself leaves no wider ones in a pass.
 CUT_LENGTH_STEPS = 1.5
@@ -54,8 +54,8 @@ def plan(
     stages = Stages(on_progress, cancel, threads)
     scene = prepare(job, faces, stages)
     footprint = lay_out(job, scene, stages)
-    positions, counters = place(job, scene, footprint, stages)
-    path = link(job, scene, positions, stages)
+    positions, cuts, counters = place_and_prove(job, scene, footprint, stages)
+    path = link(job, scene, positions, cuts, stages)
     made = run_machine(job, shop, path, scene.model.bounds(), stages)
     positions, path = positions_in_part(positions, scene.frame), path_in_part(path, scene.frame)
     verdict = judge(positions, path, made.troubles, job.tolerance, guarantee_of(job))
@@ -139,13 +139,36 @@ def unbroken_runs(pass_index: Integers, keep: Flags) -> Integers:
     return np.asarray(np.cumsum(starts)[keep] - 1)
 
 
-def place(job: Job, scene: Scene, footprint: Footprint, stages: Stages) -> tuple[Positions, dict[str, int]]:
+def place_and_prove(
+    job: Job, scene: Scene, footprint: Footprint, stages: Stages
+) -> tuple[Positions, Floats | None, dict[str, int]]:
+    """Positions in the set-up frame; of a proven method also the proven clearances of the cuts that end in them, with
+    positions put in between where it takes them; and counters of the work."""
+    positions, counters = place(job, scene, footprint, stages)
+    if guarantee_of(job) != PROVEN:
+        return positions, None, counters
+
+    def place_more(points: Floats) -> Positions:
+        more = Footprint(points, np.zeros(len(points), dtype=np.int64))
+        placed, work = place(job, scene, more, stages, motions.STAGE)
+        for name, value in work.items():
+            counters[name] += value
+        return placed
+
+    proven = motions.prove(job, scene, footprint.points, positions, place_more, stages)
+    return proven.positions, proven.cut_clearance, counters | {"motion_cells": proven.cells}
+
+
+def place(
+    job: Job, scene: Scene, footprint: Footprint, stages: Stages, stage: str = ""
+) -> tuple[Positions, dict[str, int]]:
     """Positions in the set-up frame, and the method's counters; a second opinion by dense sampling may lower the upper
-    bounds of their clearances."""
+    bounds of their clearances. stage: the one to count it under, if not as the stages "positions" and "judge".
+    """
     method = job.method
     with blame(f"{job.source}: [{method.table}]"):
         placed = stages.run_native(
-            "positions",
+            stage or "positions",
             _core.place,
             method.name,
             scene.model,
@@ -158,10 +181,11 @@ def place(job: Job, scene: Scene, footprint: Footprint, stages: Stages) -> tuple
         )
     counters = placed.pop("counters")
     placed["status"] = np.array(_core.POSITION_STATUS)[placed["status"]]
-    positions = Positions(**placed, pass_index=footprint.pass_index)
+    of_footprint = np.zeros(len(footprint.points), dtype=bool)
+    positions = Positions(**placed, pass_index=footprint.pass_index, inserted=of_footprint)
     usable = positions.usable
     sampled = stages.run_native(
-        "judge",
+        stage or "judge",
         _core.sampled_clearance,
         scene.model,
         scene.tool,
@@ -172,8 +196,9 @@ def place(job: Job, scene: Scene, footprint: Footprint, stages: Stages) -> tuple
     return positions, counters
 
 
-def link(job: Job, scene: Scene, positions: Positions, stages: Stages) -> Path:
-    """The path over the usable positions, in the set-up frame."""
+def link(job: Job, scene: Scene, positions: Positions, cuts: Floats | None, stages: Stages) -> Path:
+    """The path over the usable positions, in the set-up frame. cuts: (N,) proven clearances of the cuts that end in the
+    positions, NaN where there must be none; None: sampling decides."""
     spec = job.link
     options = _core.LinkOptions(
         safe_clearance_mm=spec.safe_clearance_mm,
@@ -192,6 +217,7 @@ def link(job: Job, scene: Scene, positions: Positions, stages: Stages) -> Path:
             positions.pass_index,
             positions.usable,
             options=options,
+            cut_clearance=cuts,
         )
     linked["kind"] = np.array(_core.MOVE_KINDS)[linked["kind"]]
     if len(linked["kind"]) == 0:

@@ -13,6 +13,7 @@ from .job import Job
 from .machines import Machine
 from .plan import UNUSABLE, Path, Positions
 from .shop import Made
+from .statement import not_cut, statement
 from .verdict import PROVEN, Verdict, digging, gouging, undecided
 from .version import __version__
 
@@ -33,20 +34,21 @@ def facts(
     return {
         "version": __version__,
         "verdict": {"good": verdict.good, "line": verdict.line, "troubles": list(verdict.troubles)},
-        "warnings": warnings(job, machine, positions, verdict.guarantee),
+        "warnings": warnings(job, machine, positions, path, verdict.guarantee),
         "job": _job_facts(job),
         "positions": _position_facts(job, positions, verdict.guarantee),
         "worst_position": _worst_position(positions),
-        "path": _path_facts(job, path),
+        "path": _path_facts(job, positions, path, verdict.guarantee),
         "program": _program_facts(made),
         "work": _work_facts(counters, len(positions)),
-        "time": _time_facts(seconds, len(positions)),
+        "time": _time_facts(seconds, int(np.count_nonzero(~positions.inserted))),
+        "statement": statement(positions, path, job.tolerance, verdict.guarantee),
     }
 
 
-def warnings(job: Job, machine: Machine, positions: Positions, guarantee: str) -> list[str]:
+def warnings(job: Job, machine: Machine, positions: Positions, path: Path, guarantee: str) -> list[str]:
     """What the reader must know although it does not make the plan bad."""
-    what = "moves between positions" if guarantee == PROVEN else "clearances"
+    what = "links" if guarantee == PROVEN else "clearances"
     found = [f"{what} are sampled: no proof that nothing between the samples is cut"]
     if not job.tool.shank and not job.tool.holder:
         found.append("the tool has no shank and no holder: only the flutes are kept clear of the part")
@@ -57,6 +59,9 @@ def warnings(job: Job, machine: Machine, positions: Positions, guarantee: str) -
     left_out = np.count_nonzero(~positions.usable)
     if left_out:
         found.append(f"{left_out} positions ({', '.join(UNUSABLE)}) are left out of the path")
+    gaps = not_cut(positions, path)
+    if gaps:
+        found.append(f"{gaps} moves between neighbours of a pass are not cut: the tool retracts there")
     return found
 
 
@@ -96,6 +101,7 @@ def _position_facts(job: Job, positions: Positions, guarantee: str) -> Facts:
         "gouging": int(np.count_nonzero(gouging(positions, job.tolerance))),
         "undecided": int(np.count_nonzero(undecided(positions, job.tolerance, guarantee))),
         "left_out": int(np.count_nonzero(~positions.usable)),
+        "inserted": int(np.count_nonzero(positions.inserted)),
         "guarantee": guarantee,
     }
 
@@ -114,7 +120,7 @@ def _worst_position(positions: Positions) -> Facts | None:
     }
 
 
-def _path_facts(job: Job, path: Path) -> Facts:
+def _path_facts(job: Job, positions: Positions, path: Path, guarantee: str) -> Facts:
     cuts = path.kind == "cut"
     lengths = np.linalg.norm(np.diff(path.tip, axis=0, prepend=path.tip[:1]), axis=1)
     return {
@@ -122,7 +128,9 @@ def _path_facts(job: Job, path: Path) -> Facts:
         "kinds": dict(Counter(path.kind.tolist()).most_common()),
         "cut_length_mm": float(lengths[cuts].sum()),
         "worst_cut_clearance_mm": float(path.clearance[cuts].min()) if cuts.any() else None,
-        "cuts_too_deep": int(np.count_nonzero(digging(path, job.tolerance))),
+        "cuts_too_deep": int(np.count_nonzero(digging(path, job.tolerance, guarantee))),
+        "cuts_guarantee": guarantee,
+        "moves_not_cut": not_cut(positions, path),
         "blocked_moves": int(np.count_nonzero(path.blocked)),
     }
 
@@ -164,6 +172,7 @@ def text(facts: Facts) -> str:
         _path_lines(facts["path"]),
         facts["program"]["lines"],
         _time_lines(facts),
+        [facts["statement"][0].upper() + facts["statement"][1:] + "."],
     ]
     return "\n\n".join("\n".join(block) for block in blocks if block) + "\n"
 
@@ -185,7 +194,10 @@ def _job_lines(job: Facts) -> list[str]:
 
 def _position_lines(facts: Facts) -> list[str]:
     positions, worst = facts["positions"], facts["worst_position"]
-    lines = [f"{positions['count']} positions in {positions['passes']} passes:"]
+    inserted = (
+        f", {positions['inserted']} of them put in between for the cuts" if positions["inserted"] else ""
+    )
+    lines = [f"{positions['count']} positions in {positions['passes']} passes{inserted}:"]
     lines += [f"  {count:8d}  {status}" for status, count in positions["statuses"].items()]
     lines.append(
         f"Contacts: {positions['with_first_contact']} first, {positions['with_second_contact']} second; "
@@ -204,8 +216,9 @@ def _path_lines(path: Facts) -> list[str]:
     kinds = ", ".join(f"{count} {kind}" for kind, count in path["kinds"].items())
     lines = [f"{path['moves']} moves ({kinds}), {path['cut_length_mm']:.1f} mm of cuts"]
     if path["worst_cut_clearance_mm"] is not None:
+        what = "at least" if path["cuts_guarantee"] == PROVEN else "sampled, no proof:"
         lines.append(
-            f"Worst clearance of a cut between its positions: {path['worst_cut_clearance_mm']:.6f} mm (sampled); "
+            f"Clearance of the cuts between their positions: {what} {path['worst_cut_clearance_mm']:.6f} mm; "
             f"{path['cuts_too_deep']} cuts too deep, {path['blocked_moves']} moves blocked"
         )
     return lines

@@ -9,8 +9,9 @@ import numpy as np
 from . import machines, posts, program_reader, program_report
 from .errors import blame
 from .job import Job, PostSpec
-from .machine_path import MachinePath, axis_tolerance_deg, machine_path
+from .machine_path import MachinePath, machine_path
 from .machines import Machine
+from .motions import control_deviation_deg
 from .plan import Floats, Names, Path, ProgramFile
 from .posts.program import PROGRAM_NAME, Program, ProgramTool, program_name
 from .program_check import check_program
@@ -79,7 +80,7 @@ def move_machine(job: Job, shop: Shop, path: Path) -> MachinePath:
         path.tip,
         path.axis,
         _feeds(job.post, path.kind),
-        axis_tolerance_deg=axis_tolerance_deg(job.tolerance.chord_mm, job.tool.radius_mm),
+        axis_tolerance_deg=control_deviation_deg(job),
     )
 
 

@@ -27,9 +27,7 @@ class Verdict:
     @property
     def line(self) -> str:
         basis = (
-            "positions proven, moves between them sampled"
-            if self.guarantee == PROVEN
-            else "sampled: no proof"
+            "positions and cuts proven, links sampled" if self.guarantee == PROVEN else "sampled: no proof"
         )
         return f"{'good' if self.good else 'NOT GOOD: ' + '; '.join(self.troubles)} ({basis})"
 
@@ -47,20 +45,28 @@ def undecided(positions: Positions, tolerance: Tolerance, guarantee: str) -> Fla
     return (positions.status == "undecided") | (open_proof if guarantee == PROVEN else False)
 
 
-def digging(path: Path, tolerance: Tolerance) -> Flags:
-    """(M,): cuts that go deeper between their positions than gouge and chord tolerance together allow."""
-    return (path.kind == "cut") & (path.clearance < -(tolerance.gouge_mm + tolerance.chord_mm))
+def cut_depth_mm(tolerance: Tolerance, guarantee: str) -> float:
+    """What a cut may cut in between its positions. Proven: the chord tolerance, but not less than its ends may;
+    sampled: gouge and chord tolerance together, for the chord of a move starts from the depth of its ends."""
+    if guarantee == PROVEN:
+        return max(tolerance.chord_mm, tolerance.gouge_mm)
+    return tolerance.gouge_mm + tolerance.chord_mm
+
+
+def digging(path: Path, tolerance: Tolerance, guarantee: str) -> Flags:
+    """(M,): cuts that go deeper than cut_depth_mm between their positions, or of which that is not known."""
+    return (path.kind == "cut") & ~(path.clearance >= -cut_depth_mm(tolerance, guarantee))
 
 
 def judge(
     positions: Positions, path: Path, machine_troubles: Sequence[str], tolerance: Tolerance, guarantee: str
 ) -> Verdict:
     """machine_troubles: one line for each kind of thing that the machine cannot do."""
-    depth = tolerance.gouge_mm + tolerance.chord_mm
+    depth = cut_depth_mm(tolerance, guarantee)
     counts = {
         f"positions cut in deeper than {tolerance.gouge_mm:g} mm": gouging(positions, tolerance),
         "positions are undecided": undecided(positions, tolerance, guarantee),
-        f"cuts go deeper than {depth:g} mm between positions": digging(path, tolerance),
+        f"cuts go deeper than {depth:g} mm between positions": digging(path, tolerance, guarantee),
         "moves run into the part": path.blocked,
     }
     found = [f"{np.count_nonzero(which)} {what}" for what, which in counts.items() if which.any()]

@@ -39,6 +39,7 @@ def positions() -> Positions:
         tilt_deg=random.uniform(0, 45, 5),
         spin_deg=np.zeros(5),
         pass_index=np.array([0, 0, 0, 1, 1]),
+        inserted=np.zeros(5, dtype=bool),
     )
 
 

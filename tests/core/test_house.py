@@ -135,4 +135,4 @@ def python_example(word: str) -> str:
 def test_the_python_example_runs(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     monkeypatch.chdir(ROOT)
     exec(compile(python_example("freecad_mpm.plan"), "README.md", "exec"), {})
-    assert "(760, 3) (760, 3) (760, 2, 3)" in capsys.readouterr().out
+    assert "(776, 3) (776, 3) (776, 2, 3)" in capsys.readouterr().out

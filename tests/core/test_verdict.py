@@ -25,6 +25,7 @@ def positions(status: str = "two_contacts", low: float = -np.inf, high: float = 
         tilt_deg=numbers,
         spin_deg=numbers,
         pass_index=np.zeros(1, dtype=int),
+        inserted=np.zeros(1, dtype=bool),
     )
 
 

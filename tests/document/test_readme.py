@@ -19,6 +19,6 @@ def test_the_example_for_freecad_runs(
     names: dict[str, object] = {}
     exec(compile(next(one for one in examples if "freecad_mpm.create" in one), "README.md", "exec"), names)
     operation = names["operation"]
-    assert operation.Positions == 760  # type: ignore[attr-defined]
-    assert "760 positions" in capsys.readouterr().out
+    assert operation.Positions == 776  # type: ignore[attr-defined]
+    assert "776 positions" in capsys.readouterr().out
     FreeCAD.closeDocument(operation.Document.Name)  # type: ignore[attr-defined]

@@ -62,6 +62,7 @@ void bind_base(py::module_& m);
 void bind_surface(py::module_& m);
 void bind_tool(py::module_& m);
 void bind_footprint(py::module_& m);
+void bind_gouge(py::module_& m);
 void bind_positioning(py::module_& m);
 void bind_machine(py::module_& m);
 void bind_path(py::module_& m);

@@ -9,6 +9,7 @@ PYBIND11_MODULE(_core, m) {
   bind_surface(m);
   bind_tool(m);
   bind_footprint(m);
+  bind_gouge(m);
   bind_positioning(m);
   bind_machine(m);
   bind_path(m);

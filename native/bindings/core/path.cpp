@@ -1,3 +1,5 @@
+#include <optional>
+
 #include "common.h"
 #include "mpm/path/link_passes.h"
 
@@ -32,11 +34,14 @@ py::dict link(const SurfaceModel& model,
               const py::array_t<std::int32_t, py::array::c_style | py::array::forcecast>& pass_index,
               const py::array_t<bool, py::array::c_style | py::array::forcecast>& usable,
               const LinkOptions& options,
+              const std::optional<DoubleArray>& cut_clearance,
               Context& context) {
-  const PathPositions positions{to_vectors<Vec3>(tip, "tip"),
-                                to_vectors<Vec3>(axis, "axis"),
-                                to_scalars<std::int32_t>(pass_index, "pass_index"),
-                                to_scalars<std::uint8_t>(usable, "usable")};
+  const PathPositions positions{
+      to_vectors<Vec3>(tip, "tip"),
+      to_vectors<Vec3>(axis, "axis"),
+      to_scalars<std::int32_t>(pass_index, "pass_index"),
+      to_scalars<std::uint8_t>(usable, "usable"),
+      cut_clearance ? to_doubles(*cut_clearance, "cut_clearance") : std::vector<double>{}};
   ToolPath path;
   {
     py::gil_scoped_release release;
@@ -85,24 +90,25 @@ void bind_path(py::module_& m) {
            "cut_gouge: how much deeper than its positions a link or a cut may go; check_step: between "
            "checked poses; "
            "cut_length_max, cut_turn_max: what one cut may join; rapid_turn_max: axis motion of one rapid.");
-  m.def("link_passes",
-        &link,
-        py::arg("model"),
-        py::arg("tool"),
-        py::arg("tip"),
-        py::arg("axis"),
-        py::arg("pass_index"),
-        py::arg("usable"),
-        py::kw_only(),
-        py::arg("options") = LinkOptions{},
-        py::arg("context"),
-        "Joins the usable positions (tip, axis (N, 3), pass_index, usable (N,); set-up frame) to a path: "
-        "cuts along the "
-        "passes, checked links over every gap. Dict of kind (M,) codes of MOVE_KINDS, tip, axis (M, 3), "
-        "position (M,) "
-        "index or -1, pass_index (M,), clearance (M,) mm, least sampled along the move, and blocked (M,): "
-        "True where no "
-        "free way was found.");
+  m.def(
+      "link_passes",
+      &link,
+      py::arg("model"),
+      py::arg("tool"),
+      py::arg("tip"),
+      py::arg("axis"),
+      py::arg("pass_index"),
+      py::arg("usable"),
+      py::kw_only(),
+      py::arg("options") = LinkOptions{},
+      py::arg("cut_clearance") = py::none(),
+      py::arg("context"),
+      "Joins the usable positions (tip, axis (N, 3), pass_index, usable (N,); set-up frame) to a path: "
+      "cuts along the passes, checked links over every gap. cut_clearance (N,): proven clearance (mm) of the "
+      "cut that ends in each position, NaN where it must not be cut; None: sampling decides. Dict of kind "
+      "(M,) codes of MOVE_KINDS, tip, axis (M, 3), position (M,) index or -1, pass_index (M,), clearance "
+      "(M,) mm, least sampled along the move or cut_clearance, and blocked (M,): True where no free way was "
+      "found.");
 }
 
 }  // namespace mpm::bindings

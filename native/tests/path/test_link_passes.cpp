@@ -50,7 +50,7 @@ ToolPath link(const SurfaceModel& model,
   return link_passes(model, tool, positions, options, context);
 }
 
-PathPositions one_position(const Vec3& tip, const Vec3& axis) { return {{tip}, {axis}, {0}, {1}}; }
+PathPositions one_position(const Vec3& tip, const Vec3& axis) { return {{tip}, {axis}, {0}, {1}, {}}; }
 
 // Every usable position ends exactly one cut or plunge, in order, where it stands.
 void expect_complete(const ToolPath& path, const PathPositions& positions) {
@@ -128,6 +128,21 @@ TEST(LinkPasses, LeavesOutUnusablePositions) {
   EXPECT_EQ(count(path, MoveKind::cut), 3u);
 }
 
+// Proven clearances stand in for sampling: none, no cut; and they are what the cut reports.
+TEST(LinkPasses, CutsOnlyWhatIsProvenWhereThereIsAProof) {
+  PathPositions positions = raster_on_floor(1, 4, false);
+  positions.cut_clearance = {kNaN, -0.004, kNaN, -0.002};
+  const ToolPath path = link(model_of({floor_100()}), positions);
+  expect_complete(path, positions);
+  EXPECT_EQ(count(path, MoveKind::plunge), 2u);
+  std::vector<double> cuts;
+  for (std::size_t i = 0; i < path.size(); ++i)
+    if (path.kind[i] == MoveKind::cut) cuts.push_back(path.clearance[i]);
+  EXPECT_EQ(cuts, (std::vector<double>{-0.004, -0.002}));
+  positions.cut_clearance.pop_back();
+  EXPECT_THROW(link(model_of({floor_100()}), positions), std::invalid_argument);
+}
+
 TEST(LinkPasses, NoUsablePositionGivesAnEmptyPath) {
   PathPositions positions = raster_on_floor(1, 2, false);
   positions.usable = {0, 0};
@@ -164,7 +179,8 @@ TEST(LinkPasses, BreaksACutThatTurnsTooFar) {
 TEST(LinkPasses, BreaksACutThroughARidge) {
   // A thin upright ridge that the tool clears at both positions stands between them.
   const Face ridge = bilinear({50, 0, -9}, {50, 100, -9}, {50, 0, 9}, {50, 100, 9});
-  const PathPositions positions{{{36, 50, 0}, {64, 50, 0}}, {Vec3::UnitZ(), Vec3::UnitZ()}, {0, 0}, {1, 1}};
+  const PathPositions positions{
+      {{36, 50, 0}, {64, 50, 0}}, {Vec3::UnitZ(), Vec3::UnitZ()}, {0, 0}, {1, 1}, {}};
   EXPECT_EQ(count(link(model_of({ridge}), positions, {.cut_length_max = 50.0}), MoveKind::plunge), 2u);
 }
 

@@ -34,6 +34,8 @@ void check_options(const LinkOptions& o) {
 void check_positions(const PathPositions& p) {
   require(p.axis.size() == p.tip.size() && p.pass.size() == p.tip.size() && p.usable.size() == p.tip.size(),
           "tip, axis, pass and usable must have the same length");
+  require(p.cut_clearance.empty() || p.cut_clearance.size() == p.tip.size(),
+          "cut_clearance must be empty or have the length of tip");
   for (std::size_t i = 0; i < p.tip.size(); ++i) {
     if (!p.usable[i]) continue;
     require(p.tip[i].allFinite(), "tip: position " + std::to_string(i) + " is usable but not finite");
@@ -127,6 +129,11 @@ void Linker::measure_cuts(Context& context) {
   const std::size_t n = positions_.tip.size();
   at_position_.assign(n, kNaN);
   along_cut_.assign(n, kNaN);
+  if (!positions_.cut_clearance.empty()) {
+    for (std::size_t i = 0; i < n; ++i)
+      if (near(i)) along_cut_[i] = positions_.cut_clearance[i];
+    return;
+  }
   context.start(2 * n);
   for_each_range(n, kGrain, context, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)

@@ -15,6 +15,9 @@ struct PathPositions {
   std::vector<Vec3> axis;  // unit, tip to spindle, z > 0
   std::vector<std::int32_t> pass;
   std::vector<std::uint8_t> usable;
+  // mm, proven least clearance of the cut that ends in each position, NaN: it must not be cut. Empty: nothing
+  // was proven, sampling decides.
+  std::vector<double> cut_clearance;
 };
 
 struct LinkOptions {
@@ -33,10 +36,11 @@ struct LinkOptions {
 // and the moves that name it.
 //
 // A cut joins a position with the next one (index + 1) when both are usable and of one pass, their tips and
-// axes are within cut_length_max and cut_turn_max, and the tool at poses check_step apart between them cuts
-// no more than cut_gouge deeper than at its ends. Every other gap, the start and the end are bridged by:
-// retract along the axis (or, where that is blocked, more along z: escape.h) to the safe plane; rapids on the
-// plane, turning the axis on a great circle; rapid down to approach_distance; plunge.
+// axes are within cut_length_max and cut_turn_max, and the cut was proven, or, where nothing is proven, the
+// tool at poses check_step apart between them cuts no more than cut_gouge deeper than at its ends. Every
+// other gap, the start and the end are bridged by: retract along the axis (or, where that is blocked, more
+// along z: escape.h) to the safe plane; rapids on the plane, turning the axis on a great circle; rapid down
+// to approach_distance; plunge.
 //
 // Guarantees: the first and last poses lie on the safe plane, where the whole tool (shank and holder too) is
 // at least safe_clearance above all surfaces; so do all rapids but those down to a position, which keep
@@ -44,9 +48,10 @@ struct LinkOptions {
 // their position, sampled, or are marked `blocked`. One-way and zigzag passes differ only in the positions'
 // order. A cancelled call returns an empty path.
 //
-// Clearances are of the tool's whole body against all faces (gouge/clearance_sampler.h): a second opinion, no
-// proof. Throws std::invalid_argument for arrays of different length, usable positions with a non-finite tip
-// or an axis that is not a unit vector from the +z side, and options that are not positive.
+// Clearances other than the proven ones are sampled (gouge/clearance_sampler.h), of the tool's whole body
+// against all faces: no proof. Throws std::invalid_argument for arrays of different length, usable positions
+// with a non-finite tip or an axis that is not a unit vector from the +z side, and options that are not
+// positive.
 ToolPath link_passes(const SurfaceModel& model,
                      const Tool& tool,
                      const PathPositions& positions,

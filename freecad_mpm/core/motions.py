@@ -1,0 +1,146 @@
+"""Proving the moves between positions: every cut is certified; where it is not free, positions are put in between.
+
+The tolerance of a cut is the chord tolerance. A share of it is given away to the control, whose rotary axes run evenly
+and so leave the great circle; the certificate takes that share off again at the full length of the lever."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, fields, replace
+from typing import Any
+
+import numpy as np
+
+from .. import _core
+from .job import Job
+from .machine_path import axis_tolerance_deg
+from .model import Scene
+from .plan import Flags, Floats, Integers, Positions
+from .stages import Stages
+from .verdict import PROVEN, cut_depth_mm
+
+STAGE = "motions"
+
+# What of the chord tolerance the control may use for its own way from axis to axis. At moves of a degree it needs a
+# hundredth; each further quarter would be missing for the chord itself.
+CONTROL_SHARE = 0.25
+
+# A move is halved so many times at most: to a sixteenth. What is not free then leads over a jump of the axis.
+DEPTH = 4
+
+Place = Callable[[Floats], Positions]
+
+
+def control_deviation_deg(job: Job) -> float:
+    """How far (degrees) the machine's real axis may be off the great circle between two given axes."""
+    return axis_tolerance_deg(CONTROL_SHARE * job.tolerance.chord_mm, job.tool.radius_mm)
+
+
+@dataclass(frozen=True)
+class Proven:
+    """N positions, those put in between included, and the moves that end in them."""
+
+    positions: Positions
+    cut_clearance: Floats  # (N,) mm, proven for the move from the position before; NaN: none, or not free
+    cells: int  # pairs of surface piece and time interval bounded
+
+
+def prove(
+    job: Job, scene: Scene, points: Floats, positions: Positions, place: Place, stages: Stages
+) -> Proven:
+    """Certify the moves along the passes and put positions in between until they are free, all in the set-up frame.
+
+    points: (N, 2) where in plan the positions stand. place: gives the positions over further points."""
+    rows = _Rows(points, positions, np.full(len(points), np.nan))
+    open_moves = neighbours(positions)
+    cells = 0
+    for depth in range(DEPTH + 1):
+        found = certify(
+            job, scene, rows.positions.tip, rows.positions.axis, np.flatnonzero(open_moves), stages
+        )
+        rows.clearance[open_moves] = np.where(found["verdict"] == "free", found["lo"], np.nan)
+        cells += int(found["cells"].sum())
+        failed = open_moves & np.isnan(rows.clearance)
+        if depth == DEPTH or not failed.any():
+            break
+        rows, open_moves = _halve(rows, failed, place)
+    rows = _without_loners(rows)
+    return Proven(rows.positions, rows.clearance, cells)
+
+
+def certify(
+    job: Job, scene: Scene, tip: Floats, axis: Floats, ends: Integers, stages: Stages
+) -> dict[str, Any]:
+    """Certificates of the moves that lead to the rows `ends` (K,) of tip, axis (N, 3) from the rows before them:
+    lo, hi (K,) mm, verdict (K,) names, cells (K,)."""
+    found = stages.run_native(
+        STAGE,
+        _core.certify_motions,
+        scene.model,
+        scene.tool,
+        tip[ends - 1],
+        axis[ends - 1],
+        tip[ends],
+        axis[ends],
+        tolerance_mm=cut_depth_mm(job.tolerance, PROVEN),
+        axis_deviation_deg=control_deviation_deg(job),
+    )
+    return {**found, "verdict": np.array(_core.VERDICTS)[found["verdict"]]}
+
+
+@dataclass(frozen=True)
+class _Rows:
+    points: Floats  # (N, 2)
+    positions: Positions
+    clearance: Floats  # (N,)
+
+
+def neighbours(positions: Positions) -> Flags:
+    """(N,): the position and the one before it are usable and of one pass, so that a cut may join them."""
+    result = np.zeros(len(positions), dtype=bool)
+    usable, passes = positions.usable, positions.pass_index
+    result[1:] = usable[1:] & usable[:-1] & (passes[1:] == passes[:-1])
+    return result
+
+
+def _halve(rows: _Rows, failed: Flags, place: Place) -> tuple[_Rows, Flags]:
+    """A position in the middle of each failed move, where there is one; and which moves are new for it."""
+    before = np.flatnonzero(failed)
+    points = 0.5 * (rows.points[before - 1] + rows.points[before])
+    middles = place(points)
+    middles = replace(
+        middles, pass_index=rows.positions.pass_index[before], inserted=np.ones(len(before), bool)
+    )
+    keep = middles.usable
+    added = _Rows(points, middles, np.full(len(before), np.nan))
+    at = np.concatenate((np.arange(len(rows.points)), before[keep] - 0.5))
+    which = np.concatenate((np.arange(len(rows.points)), len(rows.points) + np.flatnonzero(keep)))[
+        np.argsort(at, kind="stable")
+    ]
+    new = which >= len(rows.points)
+    new[1:] |= new[:-1]  # the moves to an inserted position and from it
+    return _select(_joined(rows, added), which), new
+
+
+def _without_loners(rows: _Rows) -> _Rows:
+    """Without the inserted positions that no proven move leads to or from: they would be plunged into for nothing."""
+    proven = np.isfinite(rows.clearance)
+    leaves = np.append(proven[1:], False)
+    return _select(rows, np.flatnonzero(~rows.positions.inserted | proven | leaves))
+
+
+def _joined(a: _Rows, b: _Rows) -> _Rows:
+    columns = {
+        one.name: np.concatenate((getattr(a.positions, one.name), getattr(b.positions, one.name)))
+        for one in fields(Positions)
+    }
+    return _Rows(
+        np.concatenate((a.points, b.points)),
+        Positions(**columns),
+        np.concatenate((a.clearance, b.clearance)),
+    )
+
+
+def _select(rows: _Rows, which: Integers) -> _Rows:
+    columns = {one.name: getattr(rows.positions, one.name)[which] for one in fields(Positions)}
+    return _Rows(rows.points[which], Positions(**columns), rows.clearance[which])

@@ -1,0 +1,46 @@
+"""The one sentence that a report ends with: what is known of the tool all along the path, and what is not."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .job import Tolerance
+from .motions import neighbours
+from .plan import Path, Positions
+from .verdict import PROVEN, cut_depth_mm, digging, gouging, undecided
+
+MICROMETRES = 1000.0  # in a millimetre
+
+
+def not_cut(positions: Positions, path: Path) -> int:
+    """Moves between neighbours of a pass that the path does not cut: the tool retracts and plunges instead."""
+    return int(np.count_nonzero(neighbours(positions)) - np.count_nonzero(path.kind == "cut"))
+
+
+def statement(positions: Positions, path: Path, tolerance: Tolerance, guarantee: str) -> str:
+    """Says "proven" only of what was."""
+    usable = int(np.count_nonzero(positions.usable))
+    bad = gouging(positions, tolerance) | undecided(positions, tolerance, guarantee)
+    good = usable - int(np.count_nonzero(bad & positions.usable))
+    left_out = len(positions) - usable
+    cuts = int(np.count_nonzero(path.kind == "cut"))
+    good_cuts = cuts - int(np.count_nonzero(digging(path, tolerance, guarantee)))
+    sentence = (
+        f"free to {_micrometres(tolerance.gouge_mm)} at {_of(good, usable, 'positions')}, "
+        f"within {_micrometres(cut_depth_mm(tolerance, guarantee))} on {_of(good_cuts, cuts, 'cuts')} between them, "
+        f"{'proven' if guarantee == PROVEN else 'sampled: no proof'}"
+    )
+    gaps = not_cut(positions, path)
+    return (
+        sentence
+        + (f"; {gaps} moves between neighbours are not cut" if gaps else "")
+        + (f"; {left_out} positions are left out" if left_out else "")
+    )
+
+
+def _of(good: int, count: int, what: str) -> str:
+    return f"all {count} {what}" if good == count else f"{good} of {count} {what}"
+
+
+def _micrometres(length_mm: float) -> str:
+    return f"{length_mm * MICROMETRES:g} µm"

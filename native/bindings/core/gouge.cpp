@@ -1,0 +1,73 @@
+#include "common.h"
+#include "mpm/gouge/certify_motion.h"
+
+namespace mpm::bindings {
+namespace {
+
+std::vector<ToolPose> to_poses(const Tool& tool,
+                               const DoubleArray& tips,
+                               const DoubleArray& axes,
+                               const char* tip_name,
+                               const char* axis_name) {
+  const std::vector<Vec3> tip = to_vectors<Vec3>(tips, tip_name), axis = to_vectors<Vec3>(axes, axis_name);
+  require(tip.size() == axis.size(),
+          std::string(tip_name) + " and " + axis_name + " must have the same shape (N, 3)");
+  std::vector<ToolPose> poses;
+  for (std::size_t i = 0; i < tip.size(); ++i) poses.push_back(ToolPose::from_tip(tool, tip[i], axis[i]));
+  return poses;
+}
+
+py::dict motions(const SurfaceModel& model,
+                 const Tool& tool,
+                 const DoubleArray& tips,
+                 const DoubleArray& axes,
+                 const DoubleArray& tips_to,
+                 const DoubleArray& axes_to,
+                 double tolerance_mm,
+                 double axis_deviation_deg,
+                 Context& context) {
+  const std::vector<ToolPose> from = to_poses(tool, tips, axes, "tips", "axes");
+  const std::vector<ToolPose> to = to_poses(tool, tips_to, axes_to, "tips_to", "axes_to");
+  CertifyMotionOptions options;
+  options.tolerance = tolerance_mm;
+  options.axis_deviation = radians(axis_deviation_deg);
+  std::vector<MotionCertificate> found;
+  {
+    py::gil_scoped_release release;
+    found = certify_motions(model, tool, from, to, options, context);
+  }
+  std::vector<double> lo, hi;
+  std::vector<std::uint8_t> verdict;
+  std::vector<std::uint64_t> cells;
+  for (const MotionCertificate& c : found) {
+    lo.push_back(c.lo), hi.push_back(c.hi), cells.push_back(c.cells);
+    verdict.push_back(std::uint8_t(c.verdict));
+  }
+  py::dict result;
+  result["lo"] = from_scalars(lo), result["hi"] = from_scalars(hi);
+  result["verdict"] = from_scalars(verdict), result["cells"] = from_scalars(cells);
+  return result;
+}
+
+}  // namespace
+
+void bind_gouge(py::module_& m) {
+  m.attr("VERDICTS") = py::make_tuple("free", "gouge", "undecided");
+  m.def("certify_motions",
+        &motions,
+        py::arg("model"),
+        py::arg("tool"),
+        py::arg("tips"),
+        py::arg("axes"),
+        py::arg("tips_to"),
+        py::arg("axes_to"),
+        py::kw_only(),
+        py::arg("tolerance_mm"),
+        py::arg("axis_deviation_deg") = 0.0,
+        py::arg("context"),
+        "Certificates of the moves from each tip, axis (N, 3) to tips_to, axes_to (N, 3): tip on a line, "
+        "axis within axis_deviation_deg of the great circle. Dict of lo, hi (N,) mm, proven and met bounds "
+        "of the least clearance (infinite: none), verdict (N,) codes of VERDICTS, cells (N,).");
+}
+
+}  // namespace mpm::bindings

@@ -1,0 +1,55 @@
+// The judge of a move between two poses: branch and bound over the whole surface set, the whole tool and the
+// whole time of the move. Uses nothing of the positioning.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mpm/base/context.h"
+#include "mpm/base/verdict.h"
+#include "mpm/surface/cell_tree.h"
+#include "mpm/tool/tool.h"
+
+namespace mpm {
+
+struct MotionCertificate {
+  Verdict verdict = Verdict::undecided;
+  double lo = -kInfinity;         // mm: the clearance is proven never to be less (0 where nothing came near)
+  double hi = kInfinity;          // mm: the clearance at the witness
+  double time = kNaN;             // of the witness, 0 to 1
+  Vec3 s = Vec3::Constant(kNaN);  // the witness: a surface point
+  std::uint64_t cells = 0;        // pairs of sub-patch and time interval bounded
+};
+
+struct CertifyMotionOptions {
+  double tolerance = 0.01;         // mm: what may be cut in and still be called free
+  double axis_deviation = 0.0;     // radians: what the real axis may be off the great circle
+  std::uint32_t budget = 100'000;  // cells; beyond it the verdict is undecided
+};
+
+// Proves a lower bound of the clearance of the tool from every face all the way from pose `from` to pose `to`
+// (tip on a straight line, axis on a great circle, both even in time), the real axis being off by at most
+// axis_deviation. free: lo >= -tolerance; gouge: the tool on the great circle cuts deeper than the tolerance
+// at the witness; undecided: the budget ran out, or a point was found so deep that the deviation could take
+// it beyond the tolerance, or the call was cancelled. Unless free, lo is -infinity.
+//
+// Pieces of trimmed faces too small to tell from their border count as
+// surface, as in certify_pose.
+MotionCertificate certify_motion(const CellTree& tree,
+                                 const Tool& tool,
+                                 const ToolPose& from,
+                                 const ToolPose& to,
+                                 const CertifyMotionOptions& options,
+                                 const Context& context);
+
+// Every motion in parallel; the result does not depend on the number of threads. Motions that a cancel left
+// out are undecided. Throws std::invalid_argument for arrays of different length, numbers that are not
+// finite, axes that are not unit vectors, and a tolerance or deviation that is negative.
+std::vector<MotionCertificate> certify_motions(const SurfaceModel& model,
+                                               const Tool& tool,
+                                               const std::vector<ToolPose>& from,
+                                               const std::vector<ToolPose>& to,
+                                               const CertifyMotionOptions& options,
+                                               Context& context);
+
+}  // namespace mpm
