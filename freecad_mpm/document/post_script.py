@@ -1,7 +1,7 @@
 """What the scripts in posts/ share: from the objects that CAM posts to the text of a program.
 
-Two faces of each post: FreeCAD 0.20 imports the script and calls its `export`, newer ones take the class whose name is the
-post's."""
+Two faces of each post: FreeCAD 0.20 imports the script and calls its `export`, newer ones take the class whose name
+is the post's."""
 
 from __future__ import annotations
 

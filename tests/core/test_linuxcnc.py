@@ -1,7 +1,8 @@
 """LinuxCNC as an independent reader and kinematician: its interpreter runs our program, its modules agree with us.
 
-It needs Debian's package linuxcnc-uspace, which ./dev does not install (110 packages with what it needs). Installed, or
-unpacked with libboost-python1.74.0 by dpkg -x into the folder that MPM_LINUXCNC names, it is used; else this is skipped."""
+It needs Debian's package linuxcnc-uspace, which ./dev does not install (110 packages with what it needs). It is used
+where it is installed, or unpacked with libboost-python1.74.0 (dpkg -x) into the folder that MPM_LINUXCNC names; elsewhere
+all of this is skipped."""
 
 import os
 import re
@@ -168,7 +169,7 @@ def test_a_turned_sense_is_seen_in_the_axis(driver, name):
 
 @pytest.mark.parametrize("name", TRUNNIONS)
 def test_a_posted_program_takes_their_machine_where_the_path_goes(driver, name):
-    """Text -> our reader -> their inverse -> their forward: tip and axis of the path within the rounding of the words."""
+    """Text -> our reader -> their inverse -> their forward: tip and axis of the path, but for the words' rounding."""
     machine = machines.load(name)
     motion = dialects.read(program_text(name)).motion()
     cuts = motion.tcp & ~motion.rapid
