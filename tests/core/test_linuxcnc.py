@@ -1,8 +1,8 @@
 """LinuxCNC as an independent reader and kinematician: its interpreter runs our program, its modules agree with us.
 
-It needs Debian's package linuxcnc-uspace, which ./dev does not install (110 packages with what it needs). It is used
-where it is installed, or unpacked with libboost-python1.74.0 (dpkg -x) into the folder that MPM_LINUXCNC names; elsewhere
-all of this is skipped."""
+It needs Debian's linuxcnc-uspace, which ./dev does not install (110 packages with what it needs). It is used where it is
+installed, or unpacked with libboost-python1.74.0 (dpkg -x) into the folder that MPM_LINUXCNC names; elsewhere this is
+skipped."""
 
 import os
 import re
