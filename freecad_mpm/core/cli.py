@@ -75,6 +75,12 @@ def make_parser() -> Parser:
     verify.add_argument("cl_file", metavar="cl.csv")
     _add_threads(verify)
 
+    check = commands.add_parser("check", help="read a program's text as its control would and check it")
+    check.add_argument("program", metavar="PROGRAM")
+    check.add_argument("--machine", metavar="NAME", required=True, help="a shipped machine or its file")
+    check.add_argument("--post", metavar="NAME", help="whose dialect it is; default: the one it looks like")
+    check.add_argument("--against", metavar="cl.csv", help="poses that the program must meet in their order")
+
     bench = commands.add_parser("bench", help="compare the methods and write bench.json")
     bench.add_argument(
         "--surfaces", nargs="+", metavar="NAME", help="shipped examples or job files; default: thesis"

@@ -9,6 +9,7 @@ from . import job, output, planning, report, results
 from .cl_file import read_csv
 from .console import ProgressLine
 from .info import info_lines
+from .program_file import check_file
 from .stages import Stages
 from .verification import verify as verify_moves
 
@@ -36,6 +37,12 @@ def verify(arguments: Namespace, progress: ProgressLine) -> int:
     moves = read_csv(arguments.cl_file)
     found = verify_moves(spec, moves, Stages(progress, threads=arguments.threads))
     progress.clear()
+    print(*found.lines, sep="\n")
+    return GOOD if found.good else NOT_GOOD
+
+
+def check(arguments: Namespace, progress: ProgressLine) -> int:
+    found = check_file(arguments.program, arguments.machine, arguments.post, arguments.against)
     print(*found.lines, sep="\n")
     return GOOD if found.good else NOT_GOOD
 

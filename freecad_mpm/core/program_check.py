@@ -80,7 +80,7 @@ def _state_faults(before: Block | None, block: Block) -> list[str]:
         faults.append("a move before G40: radius compensation may be on")
     if block.rapid is None:
         faults.append("a move without G00 or G01")
-    turns = any(letter in block.words for letter in "ABC")
+    turns = any(letter in block.words for letter in "ABC") or _new_vector(before, block)
     travels = any(letter in block.words for letter in "XYZ")
     if block.rapid is False:
         faults += _feed_faults(block, turns)
@@ -88,11 +88,16 @@ def _state_faults(before: Block | None, block: Block) -> list[str]:
         turns
         and travels
         and before is not None
-        and _changes(before, block, "ABC")
+        and (_new_vector(before, block) or _changes(before, block, "ABC"))
         and _changes(before, block, "XYZ")
     ):
         faults.append("a rapid that turns and travels at once: its way is not straight")
     return faults
+
+
+def _new_vector(before: Block | None, block: Block) -> bool:
+    # The first vector of a program stands over the first pose, where the tip is held.
+    return block.axis is not None and before is not None and before.axis not in (None, block.axis)
 
 
 def _feed_faults(block: Block, turns: bool) -> list[str]:
@@ -122,7 +127,8 @@ def check_round_trip(
     blocks between two of them stay on the straight line and the great circle that join them."""
     motion = program.motion()
     under_tcp = np.flatnonzero(motion.tcp)
-    at_axis = kinematics.tool_axes(machine, _angles(motion, machine)[under_tcp])
+    by_angles = kinematics.tool_axes(machine, _angles(motion, machine)[under_tcp])
+    at_axis = np.where(np.isnan(motion.axis[under_tcp]), by_angles, motion.axis[under_tcp])
     walk = Walk(tip, axis, tip_tolerance_mm, axis_tolerance_deg)
     findings = []
     poses = zip(under_tcp.tolist(), motion.tip[under_tcp].tolist(), at_axis.tolist(), motion.rapid[under_tcp])
@@ -215,7 +221,21 @@ def check_continuity(
             limit = HALF_TURN_DEG if jump[row] else step_limit
             message = f"{letter} turns by {steps[row, k]:.4f} degrees in one block, more than {limit:g}"
             findings.append(_finding("continuity", program, motion, row + 1, message))
+    findings += _wide_vectors(program, motion, cuts, step_limit)
     return findings + _solution_changes(program, machine, motion, angles, cuts)
+
+
+def _wide_vectors(
+    program: ParsedProgram, motion: Motion, cuts: NDArray[np.bool_], step_limit: float
+) -> list[Finding]:
+    """Feed moves whose direction, given as a vector, turns by more than a rotary axis may."""
+    turn = kinematics.angles_between_deg(motion.axis[1:], motion.axis[:-1])
+    return [
+        _finding(
+            "continuity", program, motion, row + 1, f"the tool turns by {turn[row]:.4f} degrees in one block"
+        )
+        for row in np.flatnonzero(cuts & (turn > step_limit)).tolist()
+    ]
 
 
 def _solution_changes(

@@ -63,6 +63,10 @@ class Block:
     spindle: bool
     feed: float
     position: tuple[float, ...]
+    axis: tuple[
+        float, float, float
+    ] | None = None  # the tool's direction, where the text gives it as a vector
+    at_machine_datum: bool = False  # as M91, in the words of other dialects
 
     @property
     def moves(self) -> bool:
@@ -72,7 +76,7 @@ class Block:
     @property
     def machine_datum(self) -> bool:
         """M91, M92: coordinates of the machine's own datum, not of the part."""
-        return 91 in self.m or 92 in self.m
+        return 91 in self.m or 92 in self.m or self.at_machine_datum
 
 
 @dataclass(frozen=True)
@@ -85,6 +89,7 @@ class Motion:
     feed: Floats  # (K,) mm/min in force
     tip: Floats  # (K, 3) X Y Z at the end of the block; NaN: not known in the part's frame
     angles: dict[str, Floats]  # A, B, C: (K,) degrees, NaN: never set
+    axis: Floats  # (K, 3) where the text gives the tool's direction as a vector, else NaN
 
 
 @dataclass(frozen=True)
@@ -107,6 +112,7 @@ class ParsedProgram:
             feed=np.array([b.feed for b in blocks], dtype=float),
             tip=positions[:, :3],
             angles={letter: positions[:, 3 + k] for k, letter in enumerate("ABC")},
+            axis=np.array([b.axis or (float("nan"),) * 3 for b in blocks]).reshape(len(blocks), 3),
         )
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import machines, posts, program_reader, program_report
+from . import dialects, machines, posts, program_report
 from .errors import blame
 from .job import Job, PostSpec
 from .machine_path import MachinePath, machine_path
@@ -68,7 +68,7 @@ def run_machine(job: Job, shop: Shop, path: Path, box: tuple[Floats, Floats], st
     program = describe(job, shop, joints, box)
     with blame(f"{job.source}: [{job.post.table}]"):
         text = stages.run("program", shop.post.write, program)
-    checked = stages.run("check", check_text, text, program, path)
+    checked = stages.run("check", check_text, text, program, path, shop.post.dialect)
     return Made(joints, ProgramFile(FILE_STEM + shop.post.file_ending, text), checked)
 
 
@@ -100,8 +100,8 @@ def describe(job: Job, shop: Shop, joints: MachinePath, box: tuple[Floats, Float
     )
 
 
-def check_text(text: str, program: Program, path: Path) -> ProgramReport:
+def check_text(text: str, program: Program, path: Path, dialect: str) -> ProgramReport:
     """Read the program's text back as a control would, and compare its poses with the path's."""
-    parsed = program_reader.read(text)
+    parsed = dialects.read(text, dialect)
     checks = check_program(parsed, program.machine, path.tip, path.axis)
     return program_report.report(program, len(parsed.blocks), checks)

@@ -86,7 +86,7 @@ def _make(op: Any, post: str, path: Path) -> shop.Made:
     program = replace(shop.describe(job, place, joints, _box(op)), coolant=op.CoolantMode != "None")
     text = place.post.write(program)
     file = ProgramFile(program.name + place.post.file_ending, text)
-    return shop.Made(joints, file, shop.check_text(text, program, path))
+    return shop.Made(joints, file, shop.check_text(text, program, path, place.post.dialect))
 
 
 def _path(ops: Sequence[Any]) -> Path:

@@ -193,10 +193,14 @@ def python_imports_follow_the_table(root: Path) -> Violations:
 
 
 def reader_never_uses_the_writers(root: Path) -> Violations:
-    """What program_reader imports, directly or not, holds no module of posts/ but the description."""
+    """What program_reader and dialects import, directly or not, holds no module of posts/ but the description."""
     files = {module_name(root, path): path for path in (root / "freecad_mpm").rglob("*.py")}
     reached: set[str] = set()
-    waiting = ["freecad_mpm.core.program_reader"]
+    waiting = [
+        name
+        for name in files
+        if name == "freecad_mpm.core.program_reader" or name.startswith("freecad_mpm.core.dialects")
+    ]
     while waiting:
         module = waiting.pop()
         if module in reached or module not in files:

@@ -60,6 +60,7 @@ FORBIDDEN = [
     (rules.python_imports_follow_the_table, "freecad_mpm/document/a.py", "import FreeCADGui"),
     (rules.reader_never_uses_the_writers, "freecad_mpm/core/program_reader.py", "from .posts import dmu80p"),
     (rules.reader_never_uses_the_writers, "freecad_mpm/core/program_reader.py", "from . import helper"),
+    (rules.reader_never_uses_the_writers, "freecad_mpm/core/dialects/apt.py", "from ..posts import dmu80p"),
     (rules.stands_alone, "notes/a.md", "see ../shared/design.md"),
     (rules.stands_alone, "dev", "cat /work/notes"),
 ]

@@ -303,3 +303,18 @@ def test_rotary_axes_that_cannot_follow_take_longer():
     program = program_of(np.array(["rapid", "cut"]), tip, axis, np.full(2, 1000.0))
     report = program_report.report(program, 0, check_program(read(write(program)), dmu80p()))
     assert report.time_s["cut"] == pytest.approx(90.0 / 7200.0 * 60.0, rel=0.01)
+
+
+@pytest.mark.parametrize(
+    "way, seconds",
+    [
+        (300.0, 0.3 / 0.5 + 0.1),  # over 50 mm the 500 mm/s are reached: d / v + v / a with a = 5000 mm/s2
+        (20.0, 2 * np.sqrt(20.0 / 5000.0)),  # not reached
+    ],
+)
+def test_rapids_start_and_end_at_rest(way, seconds):
+    tip = np.array([[0.0, 0, 0], [way, 0, 0]])
+    program = program_of(np.array(["rapid", "rapid"]), tip, directions(0.0, [0.0, 0.0]), np.zeros(2))
+    report = program_report.report(program, 0, check_program(read(write(program)), dmu80p()))
+    assert report.time_s["rapid"] == pytest.approx(seconds, rel=1e-9)
+    assert f"rapid {seconds:.1f} s" in report.lines()[0]

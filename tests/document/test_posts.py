@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +11,9 @@ from parts import COARSE, TOP, free_form_block
 from stock_post import post_process
 
 import freecad_mpm
-from freecad_mpm.core import machines, program_reader
+from freecad_mpm.core import machines
+from freecad_mpm.core import posts as core_posts
+from freecad_mpm.core import program_reader
 from freecad_mpm.core.errors import InputError
 from freecad_mpm.core.program_check import check_round_trip
 from freecad_mpm.document import cl_path, compat, posts, program
@@ -30,6 +33,16 @@ def test_the_post_is_in_every_jobs_list(doc: Any, block: Any) -> None:
     assert compat.preferences.searchPathsPost().count(posts.FOLDER) == 1
     job = compat.job.Create("Job", [block], None)
     assert "dmu80p" in job.getEnumerationsOfProperty("PostProcessor")
+
+
+def test_every_post_of_the_core_is_in_the_list_and_writes_what_the_core_writes(op: Any) -> None:
+    listed = compat.preferences.allAvailablePostProcessors()
+    for name in core_posts.names():
+        script = name if name == "dmu80p" else f"mpm_{name}"
+        assert script in listed
+        module = importlib.import_module(f"freecad_mpm.document.posts.{script}_post")
+        assert module.export([op], "-", "") == program.program_text([op], name).text
+        assert hasattr(module, script.title())  # the class that FreeCAD 1.0 looks for
 
 
 def test_freecads_command_writes_what_ours_writes(op: Any, job: Any, tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""Posts: each module of this package that has FILE_ENDING and write(program) is one, under its own name."""
+"""Posts: each module of this package that has FILE_ENDING, DIALECT and write(program) is one, under its own name."""
 
 from __future__ import annotations
 
@@ -11,13 +11,14 @@ from ..errors import InputError
 from .program import Program
 
 # Modules that posts share.
-_NOT_POSTS = {"program"}
+_NOT_POSTS = {"program", "writing"}
 
 
 @dataclass(frozen=True)
 class Post:
     name: str
     file_ending: str  # with its dot, as the control expects it
+    dialect: str  # of dialects.READERS: who reads the text back
     write: Callable[[Program], str]
 
 
@@ -31,4 +32,4 @@ def load(name: str) -> Post:
     if name not in names():
         raise InputError(f"post '{name}': unknown; give one of {', '.join(names())}")
     module = import_module(f"{__name__}.{name}")
-    return Post(name, module.FILE_ENDING, module.write)
+    return Post(name, module.FILE_ENDING, module.DIALECT, module.write)

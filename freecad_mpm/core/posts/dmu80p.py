@@ -15,6 +15,7 @@ from .program import Floats, Moves, Program, ProgramTool
 Flags = NDArray[np.bool_]
 
 FILE_ENDING = ".I"
+DIALECT = "din_iso"
 
 DECIMALS = 4  # the finest step of the control: 0.1 µm, 0.0001 degrees
 MAX_COORDINATE = 99_999.9999

@@ -1,0 +1,14 @@
+"""Fanuc 30i class with I J K vectors (G43.5): no number in it depends on the rotary axes but the start and the end."""
+
+from __future__ import annotations
+
+from . import fanuc
+from .program import Program
+
+FILE_ENDING = fanuc.FILE_ENDING
+DIALECT = fanuc.DIALECT
+OPTIONS = fanuc.Options(orientation="vectors")
+
+
+def write(program: Program) -> str:
+    return fanuc.write(program, OPTIONS)

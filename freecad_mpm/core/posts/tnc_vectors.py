@@ -1,0 +1,14 @@
+"""Klartext for a HEIDENHAIN TNC with tool vectors (LN): no number in it depends on the rotary axes."""
+
+from __future__ import annotations
+
+from . import tnc_klartext
+from .program import Program
+
+FILE_ENDING = tnc_klartext.FILE_ENDING
+DIALECT = tnc_klartext.DIALECT
+OPTIONS = tnc_klartext.Options(orientation="vectors")
+
+
+def write(program: Program) -> str:
+    return tnc_klartext.write(program, OPTIONS)
