@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 from math import comb
 
 import numpy as np
-from conftest import thesis_poles
 
 from freecad_mpm import _core
+from tests.conftest import thesis_poles
 
 
 @dataclass(frozen=True)

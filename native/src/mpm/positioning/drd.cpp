@@ -15,6 +15,9 @@ constexpr int kRaySteps = 30;        // Newton steps a ray may take; 2 to 6 are 
 constexpr int kMostBisections = 60;  // 45 degrees halved so often is below a double's resolution
 constexpr double kOnAxis = 1e-6;     // mm: a contact nearer to the tool axis has no insert
 
+constexpr double kNewtonTolerance = 1e-6;  // mm in plan: far below the drop difference of 0.01
+constexpr double kSameContact = 1e-3;      // mm: about the last grid of rays
+
 struct Options {
   int rays, refinements, equal_contacts;
   double epsilon, newton_tolerance, same_contact;
@@ -157,8 +160,8 @@ std::map<std::string, double> drd_defaults() {
           {"refinements", 5},
           {"equal_contacts", 10},
           {"epsilon_mm", 0.01},
-          {"newton_tolerance_mm", 1e-6},
-          {"same_contact_mm", 1e-3},
+          {"newton_tolerance_mm", kNewtonTolerance},
+          {"same_contact_mm", kSameContact},
           {"inner_half", 0}};
 }
 

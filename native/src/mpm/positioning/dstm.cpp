@@ -145,17 +145,19 @@ int whole(const MethodOptions& options, const char* name, int least, int most) {
 }  // namespace
 
 std::map<std::string, double> dstm_defaults() {
+  const NewtonRules rules;
+  const ToolGrid grid;
   return {{"analytic", 0},
           {"printed_equation_7", 0},
-          {"richardson_step", 1e-3},
-          {"richardson_tolerance", 1e-5},
-          {"newton_tolerance_mm", 1e-6},
-          {"iterations", 50},
+          {"richardson_step", rules.step},
+          {"richardson_tolerance", rules.step_tolerance},
+          {"newton_tolerance_mm", rules.tolerance},
+          {"iterations", double(rules.iterations)},
           {"seeds", 50},
           {"vicinity", 0.005},
-          {"phi_divisions", 48},
-          {"theta_divisions", 36},
-          {"gouge_mm", 1e-3}};
+          {"phi_divisions", double(grid.phi_divisions)},
+          {"theta_divisions", double(grid.theta_divisions)},
+          {"gouge_mm", grid.gouge}};
 }
 
 std::unique_ptr<Method> make_dstm(const SurfaceModel& model, const Tool& tool, const MethodOptions& options) {

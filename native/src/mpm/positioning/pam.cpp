@@ -9,9 +9,16 @@
 namespace mpm {
 namespace {
 
-constexpr double kOnAxis = 1e-6;                        // mm: a contact nearer to the tool axis has no insert
-constexpr int kSeeds = 50;                              // starts of the drop
-const NewtonRules kExact{true, false, 0, 0, 1e-9, 50};  // analytic derivatives; mm; Newton steps
+constexpr double kOnAxis = 1e-6;           // mm: a contact nearer to the tool axis has no insert
+constexpr int kSeeds = 50;                 // starts of the drop
+constexpr double kNewtonTolerance = 1e-9;  // mm: exact derivatives reach it in a step or two more
+
+NewtonRules exact_rules() {
+  NewtonRules rules;
+  rules.analytic = true;
+  rules.tolerance = kNewtonTolerance;
+  return rules;
+}
 
 // Largest normal curvature (1/mm), positive where the surface bends towards its normal n.
 double largest_curvature(const SurfacePoint& p, const Vec3& n) {
@@ -80,7 +87,8 @@ Placement Pam::place(const Vec2& at, Counters& counters) const {
   const std::vector<Seed> faces = seeds_under_tool(locator_, tool_, at);
   SeedSource random(at);
   std::optional<DropSolution> drop;
-  if (!faces.empty()) drop = newton_drop(model_, tool_, at, faces, kExact, grid_, kSeeds, random, counters);
+  if (!faces.empty())
+    drop = newton_drop(model_, tool_, at, faces, exact_rules(), grid_, kSeeds, random, counters);
   if (!drop || model_.faces()[drop->contact.face].check) {
     placement.status = faces.empty() || drop ? PositionStatus::off_part : PositionStatus::undecided;
     return placement;
@@ -98,7 +106,11 @@ Placement Pam::place(const Vec2& at, Counters& counters) const {
 }  // namespace
 
 std::map<std::string, double> pam_defaults() {
-  return {{"phi_divisions", 48}, {"theta_divisions", 36}, {"gouge_mm", 1e-3}, {"step_deg", 0.5}};
+  const ToolGrid grid;
+  return {{"phi_divisions", double(grid.phi_divisions)},
+          {"theta_divisions", double(grid.theta_divisions)},
+          {"gouge_mm", grid.gouge},
+          {"step_deg", 0.5}};
 }
 
 std::unique_ptr<Method> make_pam(const SurfaceModel& model, const Tool& tool, const MethodOptions& options) {

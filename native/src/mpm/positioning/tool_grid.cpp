@@ -5,7 +5,8 @@
 namespace mpm {
 namespace {
 
-constexpr RayLimits kRay{1e-6, 20};  // mm in plan, well below any gouge tolerance; Newton steps
+constexpr double kPlanTolerance = 1e-6;  // mm, well below any gouge tolerance
+constexpr RayLimits kRay{kPlanTolerance, 20};
 
 }  // namespace
 
