@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import json
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from . import job, planning
 from .errors import InputError
@@ -28,8 +32,15 @@ COLUMNS = {
     "positions_per_second": "positions/s",
     "evaluations_per_position": "evaluations/position",
     "cells_per_position": "cells/position",
+    "seeds_per_position": "seeds/position",
+    "newton_steps_per_position": "Newton steps/position",
+    "two_contacts": "two contacts",
+    "left_out": "left out",
     "worst_clearance_mm": "worst clearance, mm",
+    "deep_clearance_mm": "99.9 % above, mm",
 }
+# Of the usable positions this percentage is clearer than deep_clearance_mm.
+DEEP_PERCENT = 99.9
 STAGES = "time per stage, s"
 
 Row = dict[str, Any]
@@ -75,7 +86,9 @@ def _job_file(name: str) -> Path:
 
 def measure(run: Run, on_progress: Progress | None = None) -> Row:
     """Compute the plan of one run and take its figures."""
-    facts = planning.plan(run.job, on_progress=on_progress, threads=run.threads).report
+    plan = planning.plan(run.job, on_progress=on_progress, threads=run.threads)
+    facts = plan.report
+    clearance = plan.clearance[plan.usable, 1]
     positions, worst = facts["positions"], facts["worst_position"]
     return {
         "method": run.job.method.name,
@@ -85,9 +98,14 @@ def measure(run: Run, on_progress: Progress | None = None) -> Row:
         "positions_per_second": facts["time"]["positions_per_second"],
         "evaluations_per_position": facts["work"]["evaluations_per_position"],
         "cells_per_position": facts["work"]["cells_per_position"],
+        "seeds_per_position": facts["work"]["seeds_per_position"],
+        "newton_steps_per_position": facts["work"]["newton_steps_per_position"],
+        "two_contacts": positions["statuses"].get("two_contacts", 0) / positions["count"],
+        "left_out": positions["left_out"],
         "statuses": positions["statuses"],
         "gouging": positions["gouging"],
         "worst_clearance_mm": worst and worst["clearance_mm"],
+        "deep_clearance_mm": float(np.percentile(clearance, 100 - DEEP_PERCENT)) if len(clearance) else None,
         "guarantee": positions["guarantee"],
         "stages_s": facts["time"]["stages_s"],
     }
@@ -95,6 +113,20 @@ def measure(run: Run, on_progress: Progress | None = None) -> Row:
 
 def to_json(rows: Sequence[Row]) -> str:
     return json.dumps({"rows": list(rows)}, indent=2, allow_nan=False) + "\n"
+
+
+def to_csv(rows: Sequence[Row]) -> str:
+    """One line a row, the keys of bench.json as heads; the statuses as name=count and the stages as name=seconds."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    if rows:
+        writer.writerow(rows[0])
+    writer.writerows([_csv_value(value) for value in row.values()] for row in rows)
+    return text.getvalue()
+
+
+def _csv_value(value: Any) -> Any:
+    return " ".join(f"{name}={part}" for name, part in value.items()) if isinstance(value, dict) else value
 
 
 def table(rows: Sequence[Row]) -> str:

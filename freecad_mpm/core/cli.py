@@ -87,6 +87,7 @@ def make_parser() -> Parser:
     )
     bench.add_argument("--methods", nargs="+", metavar="NAME", help="default: all")
     bench.add_argument("--out", metavar="DIR", default="out", help="folder for bench.json; default: out")
+    bench.add_argument("--csv", metavar="FILE", help="also write the rows to this file in --out, as CSV")
     _add_threads(bench)
     return parser
 

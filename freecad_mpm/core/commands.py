@@ -53,7 +53,10 @@ def bench(arguments: Namespace, progress: ProgressLine) -> int:
     rows = [benchmark.measure(run, progress) for run in runs]
     progress.clear()
     print(benchmark.table(rows))
-    _write(arguments.out, {"bench.json": benchmark.to_json(rows)})
+    files: dict[str, bytes | str] = {"bench.json": benchmark.to_json(rows)}
+    if arguments.csv:
+        files[arguments.csv] = benchmark.to_csv(rows)
+    _write(arguments.out, files)
     return GOOD
 
 

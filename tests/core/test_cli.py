@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import json
 import os
 import pty
@@ -101,6 +102,17 @@ def test_bench_prints_and_writes_rows(job_file: Path, tmp_path: Path) -> None:
     assert rows[0]["threads"] == 1 and rows[0]["positions_per_second"] > 0
     assert rows[0]["evaluations_per_position"] > 1000
     assert "vcrf" in text
+    assert 0.5 < rows[0]["two_contacts"] <= 1
+    assert rows[0]["worst_clearance_mm"] <= rows[0]["deep_clearance_mm"]
+
+
+def test_bench_writes_the_rows_as_csv_too(job_file: Path, tmp_path: Path) -> None:
+    arguments = ("--surfaces", job_file, "--methods", "dtm", "--threads", "1", "--out", tmp_path)
+    assert run("bench", *arguments, "--csv", "bench.csv")[0] == 0
+    row = json.loads((tmp_path / "bench.json").read_text())["rows"][0]
+    head, line = list(csv.reader((tmp_path / "bench.csv").read_text().splitlines()))
+    assert head == list(row) and dict(zip(head, line))["method"] == "dtm"
+    assert row["seeds_per_position"] >= 1 and row["newton_steps_per_position"] > 1
 
 
 # What replaces what in a good job file, and what the one line must hold.

@@ -37,6 +37,7 @@ py::dict to_dict(const Placements& placements, const Tool& tool) {
   counters["evaluations"] = placements.counters.evaluations;
   counters["newton_steps"] = placements.counters.newton_steps;
   counters["cells"] = placements.counters.cells;
+  counters["seeds"] = placements.counters.seeds;
   py::dict result;
   result["tip"] = tip, result["axis"] = axis, result["contacts"] = contacts, result["normals"] = normals;
   result["status"] = status, result["tilt_deg"] = tilt_deg, result["spin_deg"] = spin_deg;

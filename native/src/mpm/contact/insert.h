@@ -33,6 +33,14 @@ inline ToolPose tilted(const Tool& tool, const Insert& insert, double tilt) {
   return {insert.center + tool.major_radius * (c * insert.v1 - s * insert.w1), c * insert.w1 + s * insert.v1};
 }
 
+// The unit normal of the ring at its point nearest to s, from s to the tube's centre; requires s off the tool
+// axis and off the major circle.
+inline Vec3 ring_normal(const Tool& tool, const ToolPose& pose, const Vec3& s) {
+  const Vec3 from_center = s - pose.torus_center;
+  const Vec3 radial = from_center - from_center.dot(pose.axis) * pose.axis;
+  return (pose.torus_center + tool.major_radius * radial.normalized() - s).normalized();
+}
+
 // Tilt (radians, in (-pi/2, 3 pi/2]: no motion starts with the tool turned farther back) at which the ring
 // reaches a surface point, given in the insert frame: the point's circle about u1 meets the lower half of the
 // torus there. NaN where it never does. Closed form: with the power g = |s|^2 - Ri^2 of the point against the

@@ -6,7 +6,10 @@
 #include "mpm/base/error.h"
 #include "mpm/base/parallel.h"
 #include "mpm/gouge/clearance_sampler.h"
+#include "mpm/positioning/drd.h"
+#include "mpm/positioning/dstm.h"
 #include "mpm/positioning/exact.h"
+#include "mpm/positioning/pam.h"
 #include "mpm/positioning/vcrf.h"
 
 namespace mpm {
@@ -24,7 +27,11 @@ std::string names_of(const std::vector<MethodInfo>& all) {
 
 const std::vector<MethodInfo>& methods() {
   static const std::vector<MethodInfo> all{{"exact", "proven", exact_defaults(), make_exact},
-                                           {"vcrf", "sampled", vcrf_defaults(), make_vcrf}};
+                                           {"vcrf", "sampled", vcrf_defaults(), make_vcrf},
+                                           {"drd", "sampled", drd_defaults(), make_drd},
+                                           {"dtm", "sampled", dstm_defaults(), make_dtm},
+                                           {"dstm", "sampled", dstm_defaults(), make_dstm},
+                                           {"pam", "sampled", pam_defaults(), make_pam}};
   return all;
 }
 

@@ -49,8 +49,9 @@ struct Counters {
   std::uint64_t evaluations = 0;  // surface points, with or without derivatives
   std::uint64_t newton_steps = 0;
   std::uint64_t cells = 0;  // sub-patches bounded
+  std::uint64_t seeds = 0;  // starts of a Newton search
   void add(const Counters& c) {
-    evaluations += c.evaluations, newton_steps += c.newton_steps, cells += c.cells;
+    evaluations += c.evaluations, newton_steps += c.newton_steps, cells += c.cells, seeds += c.seeds;
   }
 };
 

@@ -6,7 +6,7 @@
 #include "mpm/base/error.h"
 #include "mpm/contact/drop.h"
 #include "mpm/contact/insert.h"
-#include "mpm/footprint/plan_locator.h"
+#include "mpm/positioning/tool_shadow.h"
 
 namespace mpm {
 namespace {
@@ -14,7 +14,6 @@ namespace {
 constexpr double kWalkSteps = 8;           // steps of the walk to a window's border, if the surface were even
 constexpr double kMinWalkPart = 1.0 / 64;  // a step is at most this part of the parameter range
 constexpr double kSamePoint = 1e-6;        // mm: a node nearer to P than this is P itself
-constexpr double kSheetGap = 2.0;  // tool radii: seeds this much below the highest lie on another sheet
 
 struct Node {
   double value, u, v;
@@ -85,7 +84,6 @@ class Vcrf final : public Method {
   Placement place(const Vec2& at, Counters& counters) const override;
 
  private:
-  std::vector<Seed> seeds_under_tool(const Vec2& at) const;
   ParamBox window_round(std::uint32_t face, double u, double v, Counters& counters) const;
   double walk(
       const BSplineSurface& surface, double u, double v, int direction, int sign, Counters& counters) const;
@@ -99,27 +97,6 @@ class Vcrf final : public Method {
   double window_;  // half-width of the grid's window, mm
   PlanLocator locator_;
 };
-
-// Fig. 4.8 for every face: the sample nearest to the footprint point in plan, samples far below the others
-// aside.
-std::vector<Seed> Vcrf::seeds_under_tool(const Vec2& at) const {
-  const double reach = tool_.radius() + locator_.spacing();
-  double highest = -kInfinity;
-  locator_.visit_near(at, reach, [&](const Seed& s) { highest = std::max(highest, s.s.z()); });
-  std::vector<Seed> nearest;
-  const auto plan_distance = [&](const Seed& s) { return (s.s.head<2>() - at).squaredNorm(); };
-  locator_.visit_near(at, reach, [&](const Seed& s) {
-    if (s.s.z() < highest - kSheetGap * tool_.radius()) return;
-    const auto same =
-        std::find_if(nearest.begin(), nearest.end(), [&](const Seed& n) { return n.face == s.face; });
-    if (same == nearest.end())
-      nearest.push_back(s);
-    else if (plan_distance(s) < plan_distance(*same))
-      *same = s;
-  });
-  std::sort(nearest.begin(), nearest.end(), [](const Seed& a, const Seed& b) { return a.face < b.face; });
-  return nearest;
-}
 
 // The parameter window of section 4.4.4 without its assumption of a uniform net: along both iso-lines through
 // (u, v) as far as `window_` mm in plan. On a uniform net this is the thesis' window.
@@ -159,7 +136,7 @@ double Vcrf::walk(
 
 Node Vcrf::drop(const Vec2& at, const RayGrid& grid, Counters& counters) const {
   Node best{};
-  for (const Seed& seed : seeds_under_tool(at))
+  for (const Seed& seed : seeds_under_tool(locator_, tool_, at))
     grid.search(
         seed.face,
         window_round(seed.face, seed.u, seed.v, counters),
@@ -174,7 +151,7 @@ void Vcrf::tilt(const Node& first, const RayGrid& grid, Placement& placement, Co
     return (s - first.s).norm() <= kSamePoint ? kNaN : circular_ray(tool_, insert.to_local(s));
   };
   Node second{};
-  for (const Seed& seed : seeds_under_tool(placement.pose.torus_center.head<2>())) {
+  for (const Seed& seed : seeds_under_tool(locator_, tool_, placement.pose.torus_center.head<2>())) {
     const bool own = seed.face == first.face;
     grid.search(seed.face,
                 window_round(seed.face, own ? first.u : seed.u, own ? first.v : seed.v, counters),
@@ -189,10 +166,7 @@ void Vcrf::tilt(const Node& first, const RayGrid& grid, Placement& placement, Co
   placement.pose = tilted(tool_, insert, placement.tilt);
   if (!second.found || second.value > tilt_max_) return;
   placement.second_contact = second.s;
-  const Vec3 from_center = second.s - placement.pose.torus_center;
-  const Vec3 radial = from_center - from_center.dot(placement.pose.axis) * placement.pose.axis;
-  const Vec3 tube = placement.pose.torus_center + tool_.major_radius * radial.normalized();
-  placement.second_normal = (tube - second.s).normalized();
+  placement.second_normal = ring_normal(tool_, placement.pose, second.s);
 }
 
 Placement Vcrf::place(const Vec2& at, Counters& counters) const {

@@ -1,0 +1,186 @@
+#include "mpm/positioning/dstm.h"
+
+#include <cmath>
+
+#include "mpm/base/error.h"
+#include "mpm/positioning/newton_drop.h"
+
+namespace mpm {
+namespace {
+
+constexpr double kOnAxis = 1e-6;         // mm: a contact nearer to the tool axis has no insert
+constexpr double kFirstTilt = kPi / 36;  // 5 degrees: the first start of the tilt
+constexpr double kOpposite = 0.5 * kPi;  // phi of the far side of the major circle
+
+struct Options {
+  NewtonRules rules;
+  ToolGrid grid;
+  int seeds;
+  double vicinity;  // half-sides of the box round P, in parts of the face's parameter ranges
+};
+
+class Dstm final : public Method {
+ public:
+  Dstm(const SurfaceModel& model, const Tool& tool, double tilt_max, double spin, const Options& options)
+      : model_(model),
+        tool_(tool),
+        tilt_max_(tilt_max),
+        spin_(spin),
+        options_(options),
+        locator_(model, tool.radius() / 2) {}
+
+  Placement place(const Vec2& at, Counters& counters) const override;
+
+ private:
+  Insert spun(const Insert& insert, const Vec3& normal) const;
+  TiltSolution first_start(const TangentPoint& p, const Insert& insert) const;
+  bool acceptable(const TiltSolution& found, const TangentPoint& p, const ToolPose& pose) const;
+  void tilt(const TangentPoint& p,
+            const Insert& insert,
+            SeedSource& random,
+            Placement& placement,
+            Counters& counters) const;
+
+  const SurfaceModel& model_;
+  Tool tool_;
+  double tilt_max_, spin_;
+  Options options_;
+  PlanLocator locator_;
+};
+
+Insert Dstm::spun(const Insert& insert, const Vec3& normal) const {
+  const Mat3 turn = Eigen::AngleAxisd(spin_, normal).toRotationMatrix();
+  return {insert.center, turn * insert.u1, turn * insert.v1, turn * insert.w1};
+}
+
+// In place of the neighbour's solution, which a method without memory does not have: the far side of the
+// tool.
+TiltSolution Dstm::first_start(const TangentPoint& p, const Insert& insert) const {
+  TiltSolution start{p, kFirstTilt, kOpposite};
+  const Vec2 far = (insert.center + 2 * tool_.major_radius * insert.v1).head<2>();
+  double nearest = kInfinity;
+  locator_.visit_near(far, tool_.radius(), [&](const Seed& s) {
+    const double distance = (s.s.head<2>() - far).norm();
+    if (distance < nearest) nearest = distance, start.contact = {s.face, s.u, s.v, s.s, Vec3::UnitZ()};
+  });
+  return start;
+}
+
+// The paper's checks 1 (vicinity of P) and 2 (direction of the axis), and the tilt limit.
+bool Dstm::acceptable(const TiltSolution& found, const TangentPoint& p, const ToolPose& pose) const {
+  const TangentPoint& q = found.contact;
+  const ParamBox& d = model_.faces()[p.face].surface.domain();
+  const bool beside_p = q.face == p.face && std::abs(q.u - p.u) <= options_.vicinity * (d.u1 - d.u0) &&
+                        std::abs(q.v - p.v) <= options_.vicinity * (d.v1 - d.v0);
+  return !beside_p && found.beta > 0 && found.beta <= tilt_max_ && pose.axis.z() > 0;
+}
+
+void Dstm::tilt(const TangentPoint& p,
+                const Insert& insert,
+                SeedSource& random,
+                Placement& placement,
+                Counters& counters) const {
+  const std::vector<Seed> faces = seeds_under_tool(locator_, tool_, placement.pose.torus_center.head<2>());
+  for (int i = 0; i < options_.seeds && !faces.empty(); ++i) {
+    TiltSolution start = first_start(p, insert);
+    if (i > 0) start = {random_point(model_, faces, random), random(0, tilt_max_), random(-kPi, kPi)};
+    const auto found = solve_tilt(model_, tool_, insert, options_.rules, start, counters);
+    if (!found) continue;
+    const ToolPose pose = tilted(tool_, insert, found->beta);
+    if (!acceptable(*found, p, pose) || options_.grid.gouges(model_, tool_, pose, faces, counters)) continue;
+    placement.pose = pose;
+    placement.tilt = found->beta;
+    placement.status = PositionStatus::two_contacts;
+    placement.second_contact = found->contact.s, placement.second_normal = found->contact.n;
+    return;
+  }
+  // The paper: without a valid tilt the second contact is the first.
+  placement.second_contact = placement.first_contact, placement.second_normal = placement.first_normal;
+}
+
+Placement Dstm::place(const Vec2& at, Counters& counters) const {
+  Placement placement;
+  const std::vector<Seed> faces = seeds_under_tool(locator_, tool_, at);
+  if (faces.empty()) {
+    placement.status = PositionStatus::off_part;
+    return placement;
+  }
+  SeedSource random(at);
+  const auto drop =
+      newton_drop(model_, tool_, at, faces, options_.rules, options_.grid, options_.seeds, random, counters);
+  if (!drop) {
+    placement.status = PositionStatus::undecided;
+    return placement;
+  }
+  const TangentPoint& p = drop->contact;
+  if (model_.faces()[p.face].check) {
+    placement.status = PositionStatus::off_part;
+    return placement;
+  }
+  placement.pose = {Vec3(at.x(), at.y(), drop->height), Vec3::UnitZ()};
+  placement.first_contact = p.s, placement.first_normal = p.n;
+  placement.tilt = 0, placement.spin = spin_;
+  placement.status = PositionStatus::one_contact;
+  if (tool_.major_radius == 0 || (p.s.head<2>() - at).norm() <= kOnAxis) return placement;
+  const Insert insert = spun(insert_through(tool_, placement.pose, p.s), p.n);
+  placement.pose = tilted(tool_, insert, 0);
+  tilt(p, insert, random, placement, counters);
+  return placement;
+}
+
+double positive(const MethodOptions& options, const char* name) {
+  const double value = options.numbers.at(name);
+  require(std::isfinite(value) && value > 0, std::string(name) + " must be positive");
+  return value;
+}
+
+int whole(const MethodOptions& options, const char* name, int least, int most) {
+  const double value = options.numbers.at(name);
+  require(value >= least && value <= most && value == std::floor(value),
+          std::string(name) + " must be a whole number from " + std::to_string(least) + " to " +
+              std::to_string(most));
+  return int(value);
+}
+
+}  // namespace
+
+std::map<std::string, double> dstm_defaults() {
+  const NewtonRules rules;
+  const ToolGrid grid;
+  return {{"analytic", 0},
+          {"printed_equation_7", 0},
+          {"richardson_step", rules.step},
+          {"richardson_tolerance", rules.step_tolerance},
+          {"newton_tolerance_mm", rules.tolerance},
+          {"iterations", double(rules.iterations)},
+          {"seeds", 50},
+          {"vicinity", 0.005},
+          {"phi_divisions", double(grid.phi_divisions)},
+          {"theta_divisions", double(grid.theta_divisions)},
+          {"gouge_mm", grid.gouge}};
+}
+
+std::unique_ptr<Method> make_dstm(const SurfaceModel& model, const Tool& tool, const MethodOptions& options) {
+  const NewtonRules rules{whole(options, "analytic", 0, 1) == 1,
+                          whole(options, "printed_equation_7", 0, 1) == 1,
+                          positive(options, "richardson_step"),
+                          positive(options, "richardson_tolerance"),
+                          positive(options, "newton_tolerance_mm"),
+                          whole(options, "iterations", 1, 10000)};
+  const ToolGrid grid{whole(options, "phi_divisions", 1, 4096),
+                      whole(options, "theta_divisions", 1, 4096),
+                      positive(options, "gouge_mm")};
+  return std::make_unique<Dstm>(
+      model,
+      tool,
+      options.tilt_max,
+      options.spin,
+      Options{rules, grid, whole(options, "seeds", 1, 100000), positive(options, "vicinity")});
+}
+
+std::unique_ptr<Method> make_dtm(const SurfaceModel& model, const Tool& tool, const MethodOptions& options) {
+  require(options.spin == 0, "spin_deg: dtm cannot spin; use 0, or method dstm");
+  return make_dstm(model, tool, options);
+}
+
+}  // namespace mpm

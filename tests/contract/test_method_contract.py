@@ -1,0 +1,131 @@
+"""What every positioning method owes its caller, whatever it does inside. Known misses of the sampled methods stand
+here as data: when one is mended, its test fails and the line goes."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from surfaces import CASES, REWRITINGS, Case, plane
+
+from freecad_mpm import _core
+
+METHODS = sorted(_core.METHODS)
+STATUS = _core.POSITION_STATUS
+PLACED = {"two_contacts", "curvature_matched", "tilt_limited", "one_contact", "edge_contact", "bridged"}
+
+# How far (tilt in degrees, clearance in mm) a method's answers may move when the same surface is written otherwise:
+# what its own grid or stopping rule leaves open.
+WITHIN = {
+    "exact": (1e-3, 1e-4),
+    "vcrf": (1e-2, 5e-4),
+    "drd": (1e-2, 1e-3),
+    "dtm": (1e-3, 1e-4),
+    "dstm": (1e-3, 1e-4),
+    "pam": (1e-2, 5e-4),
+}
+# A status may change where two of them meet: the ring flat on a plane, the curvature limit on a bowl.
+TIES = {("exact", "plane"), ("exact", "bowl")}
+
+# How deep (mm) a method may cut in by its own rules, with room for the sampling of the clearance.
+DEEPEST = {"exact": 1e-3, "vcrf": 8e-3, "drd": 0.0105, "dtm": 3e-3, "dstm": 3e-3, "pam": 8e-3}
+
+# (method, case, rewriting) -> position: none of 50 random starts leads to the second contact, or only on one side.
+LOST_SECOND_CONTACTS = {
+    ("dtm", "convex", "translation"): 4,
+    ("dstm", "convex", "translation"): 4,
+}
+# Methods that keep upright on the bowl, where tool and surface touch in second order at P: vcrf finds P's neighbours
+# as a second contact, drop and tilt finds none.
+UPRIGHT_ON_THE_BOWL = {"vcrf", "dtm", "dstm"}
+
+
+def place(method: str, case: Case, threads: int = 2, context: _core.Context | None = None) -> dict[str, Any]:
+    """Positions over the case's points; the method's own lengths grow with the case."""
+    lengths = {
+        name: value * case.scale
+        for name, value in _core.METHODS[method]["options"].items()
+        if name.endswith("_mm")
+    }
+    return _core.place(
+        method,
+        case.model(),
+        case.tool(),
+        case.points,
+        options=lengths,
+        context=context or _core.Context(threads),
+    )
+
+
+@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("method", METHODS)
+def test_positions_are_whole(method: str, name: str) -> None:
+    placed = place(method, CASES[name])
+    assert {STATUS[code] for code in placed["status"]} <= PLACED
+    for key in ("tip", "axis", "tilt_deg", "spin_deg"):
+        assert np.isfinite(placed[key]).all(), key
+    assert np.isfinite(placed["contacts"][:, 0]).all() and np.isfinite(placed["normals"][:, 0]).all()
+    assert np.linalg.norm(placed["axis"], axis=1) == pytest.approx(1, abs=1e-12)
+    tilt = np.degrees(np.arccos(np.clip(placed["axis"][:, 2], -1, 1)))
+    assert tilt == pytest.approx(placed["tilt_deg"], abs=1e-5)
+    assert placed["clearance"][:, 1].min() > -DEEPEST[method]
+    assert (placed["clearance"][:, 0] <= placed["clearance"][:, 1]).all()
+
+
+@pytest.mark.parametrize("rewriting", REWRITINGS)
+@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("method", METHODS)
+def test_the_same_surface_written_otherwise_gives_the_same_positions(
+    method: str, name: str, rewriting: str
+) -> None:
+    case = CASES[name]
+    other = REWRITINGS[rewriting](case)
+    one, two = place(method, case), place(method, other)
+    tilt, clearance = WITHIN[method]
+    moved = np.abs(one["tilt_deg"] - two["tilt_deg"]) > tilt
+    scale = other.scale / case.scale
+    moved |= np.abs(one["clearance"][:, 1] - two["clearance"][:, 1] / scale) > clearance
+    if (method, name) not in TIES:
+        moved |= one["status"] != two["status"]
+    known = LOST_SECOND_CONTACTS.get((method, name, rewriting))
+    assert np.flatnonzero(moved).tolist() == ([] if known is None else [known])
+
+
+# drd accepts a drop difference of 0.01 mm, which at the far side of the ring is up to 0.05 degrees.
+@pytest.mark.parametrize("method", METHODS)
+def test_on_a_plane_the_ring_lies_flat(method: str) -> None:
+    within = 0.05 if method == "drd" else 1e-3
+    tilt = place(method, plane(0.3))["tilt_deg"]
+    assert tilt == pytest.approx(math.degrees(math.atan(0.3)), abs=within)
+
+
+@pytest.mark.parametrize("method", sorted(set(METHODS) - {"exact"}))
+def test_the_bowl_is_leant_into_as_far_as_it_bends(method: str) -> None:
+    proven, placed = place("exact", CASES["bowl"]), place(method, CASES["bowl"])
+    if method in UPRIGHT_ON_THE_BOWL:
+        assert placed["tilt_deg"] == pytest.approx(0, abs=1e-9)
+    else:  # drd: its accepted drop difference lets it lean some tenths of a degree further
+        assert placed["tilt_deg"] == pytest.approx(proven["tilt_deg"], abs=0.4 if method == "drd" else 0.01)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_neither_order_nor_threads_change_a_bit(method: str) -> None:
+    case = CASES["saddle"]
+    backwards = Case(
+        case.poles, case.points[::-1].copy(), case.knots_u, case.knots_v, case.degrees, case.scale
+    )
+    one, two = place(method, case, threads=1), place(method, backwards, threads=2)
+    for key in ("tip", "axis", "contacts", "clearance", "status"):
+        np.testing.assert_array_equal(one[key], two[key][::-1])
+    assert one["counters"] == two["counters"]
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_cancelled_context_computes_nothing(method: str) -> None:
+    context = _core.Context(2)
+    context.cancel()
+    placed = place(method, CASES["saddle"], context=context)
+    assert {STATUS[code] for code in placed["status"]} == {"not_computed"}
+    assert np.isnan(placed["tip"]).all()
