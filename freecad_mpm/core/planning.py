@@ -144,13 +144,14 @@ def place_and_prove(
 ) -> tuple[Positions, Floats | None, dict[str, int]]:
     """Positions in the set-up frame; of a proven method also the proven clearances of the cuts that end in them, with
     positions put in between where it takes them; and counters of the work."""
-    positions, counters = place(job, scene, footprint, stages)
+    positioner = make_positioner(job, scene, stages)
+    positions, counters = place(job, scene, positioner, footprint, stages)
     if guarantee_of(job) != PROVEN:
         return positions, None, counters
 
     def place_more(points: Floats) -> Positions:
         more = Footprint(points, np.zeros(len(points), dtype=np.int64))
-        placed, work = place(job, scene, more, stages, motions.STAGE)
+        placed, work = place(job, scene, positioner, more, stages, motions.STAGE)
         for name, value in work.items():
             counters[name] += value
         return placed
@@ -159,26 +160,37 @@ def place_and_prove(
     return proven.positions, proven.cut_clearance, counters | {"motion_cells": proven.cells}
 
 
+def make_positioner(job: Job, scene: Scene, stages: Stages) -> _core.Positioner:
+    """The job's method made ready for the scene: what it precomputes counts as the stage "index"."""
+    method = job.method
+
+    def make(context: _core.Context) -> _core.Positioner:
+        return _core.Positioner(
+            method.name,
+            scene.model,
+            scene.tool,
+            tilt_max_deg=method.tilt_max_deg,
+            spin_deg=method.spin_deg,
+            options=method.options,
+        )
+
+    with blame(f"{job.source}: [{method.table}]"):
+        return stages.run_native("index", make)
+
+
 def place(
-    job: Job, scene: Scene, footprint: Footprint, stages: Stages, stage: str = ""
+    job: Job,
+    scene: Scene,
+    positioner: _core.Positioner,
+    footprint: Footprint,
+    stages: Stages,
+    stage: str = "",
 ) -> tuple[Positions, dict[str, int]]:
     """Positions in the set-up frame, and the method's counters; a second opinion by dense sampling may lower the upper
     bounds of their clearances. stage: the one to count it under, if not as the stages "positions" and "judge".
     """
-    method = job.method
-    with blame(f"{job.source}: [{method.table}]"):
-        placed = stages.run_native(
-            stage or "positions",
-            _core.place,
-            method.name,
-            scene.model,
-            scene.tool,
-            footprint.points,
-            tilt_max_deg=method.tilt_max_deg,
-            spin_deg=method.spin_deg,
-            options=method.options,
-            judge=False,
-        )
+    with blame(f"{job.source}: [{MethodSpec.table}]"):
+        placed = stages.run_native(stage or "positions", positioner.place, footprint.points)
     counters = placed.pop("counters")
     placed["status"] = np.array(_core.POSITION_STATUS)[placed["status"]]
     of_footprint = np.zeros(len(footprint.points), dtype=bool)

@@ -49,14 +49,8 @@ def place(method: str, case: Case, threads: int = 2, context: _core.Context | No
         for name, value in _core.METHODS[method]["options"].items()
         if name.endswith("_mm")
     }
-    return _core.place(
-        method,
-        case.model(),
-        case.tool(),
-        case.points,
-        options=lengths,
-        context=context or _core.Context(threads),
-    )
+    positioner = _core.Positioner(method, case.model(), case.tool(), options=lengths)
+    return positioner.place(case.points, context=context or _core.Context(threads))
 
 
 @pytest.mark.parametrize("name", CASES)

@@ -78,13 +78,12 @@ class Positioner {
     return to_dict(placements, tool_);
   }
 
-  py::dict place(const DoubleArray& points, bool judge, Context& context) const {
+  py::dict place(const DoubleArray& points, Context& context) const {
     const std::vector<Vec2> at = to_vectors<Vec2>(points, "points");
     Placements placements;
     {
       py::gil_scoped_release release;
       placements = place_all(*method_, at, context);
-      if (judge) judge_by_sampling(model_, tool_, placements, context);
     }
     return to_dict(placements, tool_);
   }
@@ -94,18 +93,6 @@ class Positioner {
   Tool tool_;
   std::unique_ptr<Method> method_;
 };
-
-py::dict place(const std::string& method,
-               const SurfaceModel& model,
-               const Tool& tool,
-               const DoubleArray& points,
-               double tilt_max_deg,
-               double spin_deg,
-               const std::map<std::string, double>& options,
-               bool judge,
-               Context& context) {
-  return Positioner(method, model, tool, tilt_max_deg, spin_deg, options).place(points, judge, context);
-}
 
 py::array_t<double> sampled_clearance(const SurfaceModel& model,
                                       const Tool& tool,
@@ -177,9 +164,12 @@ void bind_positioning(py::module_& m) {
            &Positioner::place,
            py::arg("points"),
            py::kw_only(),
-           py::arg("judge") = false,
            py::arg("context"),
-           "As the function `place`.")
+           "Positions over plan points (N, 2) of the set-up frame. Dict of tip, axis (N, 3), contacts, "
+           "normals "
+           "(N, 2, 3; NaN: none), status (N,) codes of POSITION_STATUS, tilt_deg, spin_deg (N,), clearance "
+           "(N, 2) "
+           "mm bounds (infinite: nobody proved or measured one) and counters.")
       .def("place_contacts",
            &Positioner::place_contacts,
            py::arg("faces"),
@@ -192,23 +182,6 @@ void bind_positioning(py::module_& m) {
            "direction (N, 3) of the ring's tangent there. Result as of `place`; tilt_deg is the contact "
            "angle, 0 "
            "on the ring's equator and 90 on its bottom.");
-  m.def("place",
-        &place,
-        py::arg("method"),
-        py::arg("model"),
-        py::arg("tool"),
-        py::arg("points"),
-        py::kw_only(),
-        py::arg("tilt_max_deg") = 45.0,
-        py::arg("spin_deg") = 0.0,
-        py::arg("options") = std::map<std::string, double>{},
-        py::arg("judge") = true,
-        py::arg("context"),
-        "Positions over plan points (N, 2) of the set-up frame. Dict of tip, axis (N, 3), contacts, normals "
-        "(N, 2, 3; "
-        "NaN: none), status (N,) codes of POSITION_STATUS, tilt_deg, spin_deg (N,), clearance (N, 2) mm "
-        "bounds (infinite: "
-        "nobody proved or measured one) and counters. judge: measure clearances by dense sampling.");
   m.def("sampled_clearance",
         &sampled_clearance,
         py::arg("model"),
