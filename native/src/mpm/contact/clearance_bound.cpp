@@ -161,14 +161,7 @@ ClearanceBound::Answer ClearanceBound::pieces(const QuadraticCell& cell,
     answer.lower = std::min(answer.lower, lower - frame_.rounding);
     answer.center = std::min(answer.center, d.distance);
   };
-  double top = tool_.flute_length - tool_.minor_radius;
-  include(tool_.radius(), tool_.radius(), 0.0, top);
-  if (tool_.recess < tool_.minor_radius)
-    include(tool_.major_radius, tool_.major_radius, tool_.recess - tool_.minor_radius, top);
-  for (const ToolSegment& s : tool_.segments) {
-    include(s.bottom_radius, s.top_radius, top, top + s.length);
-    top += s.length;
-  }
+  visit_pieces(tool_, include);
   return answer;
 }
 

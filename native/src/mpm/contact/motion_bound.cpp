@@ -205,16 +205,7 @@ MotionBound::Answer MotionBound::pieces(const MovingCell& cell, const Meridian& 
     answer.lower = std::min(answer.lower, lower);
     answer.center = std::min(answer.center, d.distance);
   };
-  double top = tool_.flute_length - tool_.minor_radius;
-  // The pieces of tool/signed_distance: the core reaches up through the flutes, so that what lies inside the
-  // tool where both meet counts as deep.
-  include(tool_.radius(), tool_.radius(), 0.0, top);
-  if (tool_.recess < tool_.minor_radius)
-    include(tool_.major_radius, tool_.major_radius, tool_.recess - tool_.minor_radius, top);
-  for (const ToolSegment& s : tool_.segments) {
-    include(s.bottom_radius, s.top_radius, top, top + s.length);
-    top += s.length;
-  }
+  visit_pieces(tool_, include);
   return answer;
 }
 

@@ -8,10 +8,10 @@ inline constexpr int kLanes = 4;
 // Lane k of every array is one QuadraticCell (quadratic_cell.h). Plain numbers only: the kernels that read it
 // are compiled for several instruction sets and must not share inline functions with the rest.
 struct alignas(32) CellBatch {
-  enum Term { c, A, B, C, E, F };
-  double term[6][3][kLanes];  // mm
-  double error[kLanes];       // mm
-  double radius[kLanes];      // mm
+  enum Term { center, a, b, aa, ab, bb };  // c, A, B, C, E, F there
+  double term[6][3][kLanes];               // mm
+  double error[kLanes];                    // mm
+  double radius[kLanes];                   // mm
 };
 
 }  // namespace mpm

@@ -104,12 +104,12 @@ QuadraticCell get_lane(const CellBatch& batch, int lane) {
   const auto term = [&](CellBatch::Term t) -> Vec3 {
     return {batch.term[t][0][lane], batch.term[t][1][lane], batch.term[t][2][lane]};
   };
-  return {term(CellBatch::c),
-          term(CellBatch::A),
-          term(CellBatch::B),
-          term(CellBatch::C),
-          term(CellBatch::E),
-          term(CellBatch::F),
+  return {term(CellBatch::center),
+          term(CellBatch::a),
+          term(CellBatch::b),
+          term(CellBatch::aa),
+          term(CellBatch::ab),
+          term(CellBatch::bb),
           batch.error[lane],
           batch.radius[lane]};
 }

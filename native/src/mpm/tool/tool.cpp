@@ -72,18 +72,10 @@ void check_tool(const Tool& tool) {
 
 double signed_distance(const Tool& tool, double r, double z) {
   const double ring = hypotenuse(r - tool.major_radius, z) - tool.minor_radius;
-  double top = tool.flute_length - tool.minor_radius;
-  double distance = std::min(ring, cone_distance(r, z, tool.radius(), tool.radius(), 0.0, top).distance);
-  if (tool.major_radius > 0) {
-    const double bottom = tool.recess - tool.minor_radius;
-    distance =
-        std::min(distance, cone_distance(r, z, tool.major_radius, tool.major_radius, bottom, top).distance);
-  }
-  for (const ToolSegment& s : tool.segments) {
-    distance =
-        std::min(distance, cone_distance(r, z, s.bottom_radius, s.top_radius, top, top + s.length).distance);
-    top += s.length;
-  }
+  double distance = ring;
+  visit_pieces(tool, [&](double r0, double r1, double z0, double z1) {
+    distance = std::min(distance, cone_distance(r, z, r0, r1, z0, z1).distance);
+  });
   return distance;
 }
 

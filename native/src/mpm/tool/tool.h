@@ -43,6 +43,22 @@ ConeDistance cone_distance(double r, double z, double r0, double r1, double z0, 
 // outside, where it is exact; negative inside, where its size is at most the true depth.
 double signed_distance(const Tool& tool, double r, double z);
 
+// Calls visit(r0, r1, z0, z1) for every piece of the body beside the ring, each a truncated cone about the
+// axis from radius r0 at height z0 to r1 at z1 of the tool frame: the flutes; the core of a ring that is not
+// hollow to its centre, which reaches up through the flutes so that what lies inside the tool where both meet
+// counts as deep; shank and holder.
+template <class Visit>
+void visit_pieces(const Tool& tool, const Visit& visit) {
+  double top = tool.flute_length - tool.minor_radius;
+  visit(tool.radius(), tool.radius(), 0.0, top);
+  if (tool.major_radius > 0 && tool.recess < tool.minor_radius)
+    visit(tool.major_radius, tool.major_radius, tool.recess - tool.minor_radius, top);
+  for (const ToolSegment& s : tool.segments) {
+    visit(s.bottom_radius, s.top_radius, top, top + s.length);
+    top += s.length;
+  }
+}
+
 // Where the tool stands.
 struct ToolPose {
   Vec3 torus_center;
