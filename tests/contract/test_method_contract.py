@@ -37,9 +37,10 @@ LOST_SECOND_CONTACTS = {
     ("dtm", "convex", "translation"): 4,
     ("dstm", "convex", "translation"): 4,
 }
-# Methods that keep upright on the bowl, where tool and surface touch in second order at P: vcrf finds P's neighbours
-# as a second contact, drop and tilt finds none.
-UPRIGHT_ON_THE_BOWL = {"vcrf", "dtm", "dstm"}
+# On the bowl tool and surface touch in second order at P. Drop and tilt finds no second contact there and keeps upright.
+UPRIGHT_ON_THE_BOWL = {"dtm", "dstm"}
+# Others lean further than they may, degrees: drd by the drop difference it accepts, vcrf by its last grid about P.
+FURTHER_ON_THE_BOWL_DEG = {"drd": 0.4, "vcrf": 0.06}
 
 
 def place(method: str, case: Case, threads: int = 2, context: _core.Context | None = None) -> dict[str, Any]:
@@ -100,8 +101,9 @@ def test_the_bowl_is_leant_into_as_far_as_it_bends(method: str) -> None:
     proven, placed = place("exact", CASES["bowl"]), place(method, CASES["bowl"])
     if method in UPRIGHT_ON_THE_BOWL:
         assert placed["tilt_deg"] == pytest.approx(0, abs=1e-9)
-    else:  # drd: its accepted drop difference lets it lean some tenths of a degree further
-        assert placed["tilt_deg"] == pytest.approx(proven["tilt_deg"], abs=0.4 if method == "drd" else 0.01)
+    else:
+        within = FURTHER_ON_THE_BOWL_DEG.get(method, 0.01)
+        assert placed["tilt_deg"] == pytest.approx(proven["tilt_deg"], abs=within)
 
 
 @pytest.mark.parametrize("method", METHODS)
