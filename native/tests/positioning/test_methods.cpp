@@ -174,6 +174,26 @@ TEST(Methods, OffThePartIsAStatus) {
     EXPECT_EQ(place(method, model, {Vec2(300, 50)}).positions[0].status, PositionStatus::off_part);
 }
 
+// A holder wider than the cutter meets a steep wall long before the cutter does; there is no closed form for
+// it, and still every position ends free or within its budget.
+TEST(Exact, AHolderInTheWayEndsWithinTheBudget) {
+  const SurfaceModel model = testing::inclined_plane(8);
+  Tool tool = testing::thesis_tool();
+  tool.segments = {{40, 50, 60}};
+  const auto method = make_method("exact", model, tool, {});
+  int free = 0;
+  for (double x : {20.0, 40.0, 60.0}) {
+    Counters counters;
+    const Placement one = method->place(Vec2(x, 50), counters);
+    EXPECT_LE(counters.cells, 2 * 200'000u + 8);  // drop and tilt, each at most a group over
+    if (one.status == PositionStatus::undecided) continue;
+    ++free;
+    EXPECT_GE(one.clearance_lo, -1e-3);
+    EXPECT_GE(ClearanceSampler(model, tool)(one.pose, 1.0).distance, -1e-3);
+  }
+  EXPECT_EQ(free, 3);
+}
+
 // On a plane the contact angle that is asked for has one answer: the ring lies on it all round, or stops at
 // the limit.
 TEST(GivenContacts, OnAPlane) {
