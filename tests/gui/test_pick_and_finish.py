@@ -155,7 +155,7 @@ def edit_page(window: FreeCADWindow) -> None:
 
 
 def test_a_value_typed_into_the_page_recomputes(window: FreeCADWindow, part: None) -> None:
-    before = window.run(COARSE + "result = op.Positions")
+    before = window.run(COARSE + "result = op.Report")
     edit_page(window)
     window.screenshot("5-edit")
     window.run(
@@ -167,7 +167,8 @@ def test_a_value_typed_into_the_page_recomputes(window: FreeCADWindow, part: Non
     window.click(window.run("result = panel_button(QtGui.QDialogButtonBox.Ok)"))
     window.wait(lambda: not window.run("result = Gui.Control.activeDialog()"))
     assert window.run("result = op.ForwardStep.Value") == 12.7
-    assert 0 < window.run("result = op.Positions") < before
+    # Not the number of positions: with longer steps more are put in between.
+    assert "8 mm forward" in before and "12.7 mm forward" in window.run("result = op.Report")
 
 
 def test_cancel_in_the_page_changes_nothing(window: FreeCADWindow, part: None) -> None:
