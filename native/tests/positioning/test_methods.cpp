@@ -24,7 +24,7 @@ Placements place(const char* method,
                  const SurfaceModel& model,
                  const std::vector<Vec2>& points,
                  double spin = 0,
-                 Tool tool = testing::thesis_tool()) {
+                 const Tool& tool = testing::thesis_tool()) {
   Context context(2);
   MethodOptions options;
   options.spin = spin;
