@@ -57,7 +57,7 @@ TEST(FirstArrival, DropTouchesTangentially) {
   const PatchMinimum touch = first_arrival(tool, drop, model.faces()[0], 0.35, 0.5);
   ASSERT_LT(touch.value, kInfinity);
   const RingDistance d = ring_distance(tool, drop.pose(touch.value), touch.s);
-  EXPECT_NEAR(d.to_circle, tool.minor_radius, 1e-10);
+  EXPECT_NEAR(1 / d.bend_across, tool.minor_radius, 1e-10);
   const SurfacePoint p = model.faces()[0].surface.evaluate(touch.u, touch.v);
   EXPECT_LT(d.gradient.cross(p.su.cross(p.sv).normalized()).norm(), 1e-9);  // rad between the normals
 }

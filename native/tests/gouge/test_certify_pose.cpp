@@ -18,10 +18,6 @@ ToolPose leaning(const Vec3& tip, double tilt, double azimuth, const Tool& tool)
   return ToolPose::from_tip(tool, tip, axis);
 }
 
-double sampled(const SurfaceModel& model, const Tool& tool, const ToolPose& pose) {
-  return ClearanceSampler(model, tool)(pose, tool.radius()).distance;
-}
-
 // No pose, however it stands, may have a sampled clearance below the proven one.
 void expect_sound(const SurfaceModel& model, const Tool& tool, const std::vector<ToolPose>& poses) {
   const CellTree tree(model, tool.radius() / 12);

@@ -9,16 +9,19 @@
 namespace mpm {
 
 // A motion of the tool with parameter x; the ring meets a surface point s at x = arrival(s). The tool's first
-// touch is the least arrival over the surface. `velocity`, `velocity_slope` and `acceleration` describe how a
-// surface point moves relative to the tool: ds/dx = w(s), dw/ds, d2s/dx2.
+// touch is the least arrival over the surface. How a surface point moves relative to the tool: ds/dx =
+// velocity(s), whose change along a vector d is velocity_change(d), and d2s/dx2 = acceleration(s). order(s)
+// compares arrivals without their cost: it is less than order_of(x) where the arrival is less than x.
 // Lowering an upright tool over plan point `at` along -z; x = -(height of the torus centre), mm.
 class Drop {
  public:
   Drop(const Tool& tool, const Vec2& at) : tool_(tool), at_(at) {}
   double arrival(const Vec3& s) const { return -drop_height(tool_, at_, s); }
+  double order(const Vec3& s) const { return arrival(s); }
+  double order_of(double x) const { return x; }
   ToolPose pose(double x) const { return {Vec3(at_.x(), at_.y(), -x), Vec3::UnitZ()}; }
   Vec3 velocity(const Vec3&) const { return Vec3::UnitZ(); }
-  Mat3 velocity_slope() const { return Mat3::Zero(); }
+  Vec3 velocity_change(const Vec3&) const { return Vec3::Zero(); }
   Vec3 acceleration(const Vec3&) const { return Vec3::Zero(); }
 
  private:
@@ -34,9 +37,11 @@ class Tilt {
     const double x = circular_ray(tool_, insert_.to_local(s));
     return x == x ? x : kInfinity;
   }
+  double order(const Vec3& s) const { return circular_ray_direction(tool_, insert_.to_local(s)).order(); }
+  double order_of(double x) const { return TiltDirection{std::cos(x), std::sin(x)}.order(); }
   ToolPose pose(double x) const { return tilted(tool_, insert_, x); }
   Vec3 velocity(const Vec3& s) const { return insert_.u1.cross(s - insert_.center); }
-  Mat3 velocity_slope() const;
+  Vec3 velocity_change(const Vec3& d) const { return insert_.u1.cross(d); }
   Vec3 acceleration(const Vec3& s) const { return insert_.u1.cross(velocity(s)); }
   const Vec3& axis() const { return insert_.u1; }
   const Vec3& center() const { return insert_.center; }
@@ -46,11 +51,23 @@ class Tilt {
   const Insert& insert_;
 };
 
-// Gradient (unit, away from the tool) and Hessian of the distance from the major circle, at surface point s.
+// The distance from the major circle at surface point s: its gradient (unit, away from the tool), and its
+// Hessian by the two directions that it bends in.
 struct RingDistance {
-  double to_circle;
-  Vec3 gradient;
-  Mat3 hessian;
+  Vec3 gradient, across, around;    // unit, at right angles; across: in the meridian plane
+  double bend_across, bend_around;  // 1/mm
+  Vec3 ring_curvature;  // 1/mm: of the circle round the tool's axis through s, whose tangent is `around`
+  // The Hessian's products with a vector along the three directions.
+  struct Slope {
+    double gradient, across, around;
+  };
+  Slope along(const Vec3& d) const {
+    return {gradient.dot(d), bend_across * across.dot(d), bend_around * around.dot(d)};
+  }
+  // y' H x for Hx = along(x) (its second and third part).
+  double bend(const Slope& x, const Vec3& y) const {
+    return x.across * across.dot(y) + x.around * around.dot(y);
+  }
 };
 RingDistance ring_distance(const Tool& tool, const ToolPose& pose, const Vec3& s);
 
@@ -62,19 +79,20 @@ Derivatives arrival_derivatives(const Tool& tool, const Approach& approach, cons
   a.value = x;
   const RingDistance d = ring_distance(tool, approach.pose(x), p.s);
   const Vec3 w = approach.velocity(p.s);
-  const Mat3 slope = approach.velocity_slope();
-  const double dx = d.gradient.dot(w);
+  const RingDistance::Slope u = d.along(p.su), v = d.along(p.sv), x_slope = d.along(w);
+  const double dx = x_slope.gradient;
   if (!(dx < 0)) return a;
   a.gap_rate = -dx;
-  const Vec3 hu = d.hessian * p.su, hv = d.hessian * p.sv;
-  const double dux = hu.dot(w) + d.gradient.dot(slope * p.su), dvx = hv.dot(w) + d.gradient.dot(slope * p.sv);
-  const double dxx = w.dot(d.hessian * w) + d.gradient.dot(approach.acceleration(p.s));
-  const double xu = -d.gradient.dot(p.su) / dx, xv = -d.gradient.dot(p.sv) / dx;
+  a.ring_tangent = d.around, a.ring_curvature = d.ring_curvature;
+  const double dux = d.bend(u, w) + d.gradient.dot(approach.velocity_change(p.su));
+  const double dvx = d.bend(v, w) + d.gradient.dot(approach.velocity_change(p.sv));
+  const double dxx = d.bend(x_slope, w) + d.gradient.dot(approach.acceleration(p.s));
+  const double xu = -u.gradient / dx, xv = -v.gradient / dx;
   a.gradient = {xu, xv};
-  const double duv = hu.dot(p.sv) + d.gradient.dot(p.suv);
-  a.hessian(0, 0) = -(hu.dot(p.su) + d.gradient.dot(p.suu) + 2 * dux * xu + dxx * xu * xu) / dx;
-  a.hessian(1, 1) = -(hv.dot(p.sv) + d.gradient.dot(p.svv) + 2 * dvx * xv + dxx * xv * xv) / dx;
-  a.hessian(0, 1) = a.hessian(1, 0) = -(duv + dux * xv + dvx * xu + dxx * xu * xv) / dx;
+  a.hessian(0, 0) = -(d.bend(u, p.su) + d.gradient.dot(p.suu) + 2 * dux * xu + dxx * xu * xu) / dx;
+  a.hessian(1, 1) = -(d.bend(v, p.sv) + d.gradient.dot(p.svv) + 2 * dvx * xv + dxx * xv * xv) / dx;
+  a.hessian(0, 1) = a.hessian(1, 0) =
+      -(d.bend(u, p.sv) + d.gradient.dot(p.suv) + dux * xv + dvx * xu + dxx * xu * xv) / dx;
   return a;
 }
 

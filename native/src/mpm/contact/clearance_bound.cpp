@@ -45,7 +45,8 @@ ClearanceBound::ClearanceBound(const Tool& tool, const ToolPose& pose)
              tool.major_radius,
              tool.minor_radius,
              kBoundRoundoff * (pose.torus_center.cwiseAbs().maxCoeff() + tool.length() + tool.reach()),
-             std::min(0.0, tool.recess - tool.minor_radius)} {}
+             std::min(0.0, tool.recess - tool.minor_radius),
+             tool.reach()} {}
 
 ClearanceBound::Meridian ClearanceBound::meridian(const Vec3& s) const {
   const Vec3 x = s - pose_.torus_center;
@@ -57,87 +58,8 @@ ClearanceBound::Meridian ClearanceBound::meridian(const Vec3& s) const {
   return at;
 }
 
-ClearanceBound::Answer ClearanceBound::operator()(const QuadraticCell& cell, double enough) const {
-  const Meridian at = meridian(cell.c);
-  const double ring_center = hypotenuse(at.r - tool_.major_radius, at.z) - tool_.minor_radius;
-  Answer answer{ring_center - cell.radius, ring_center};
-  if (answer.lower < enough && at.r > cell.radius) {
-    const QuadraticBound q = ring(cell, at);
-    answer.lower = std::max(answer.lower, least_quadratic(q.f - q.loss, q.g1, q.g2, q.h11, q.h12, q.h22));
-  }
-  answer.lower -= frame_.rounding;
-  const Answer rest = pieces(cell, at, enough);
-  return {std::min(answer.lower, rest.lower), std::min(answer.center, rest.center)};
-}
-
-QuadraticBound ClearanceBound::ring(const QuadraticCell& cell) const { return ring(cell, meridian(cell.c)); }
-
 ClearanceBound::Answer ClearanceBound::pieces(const QuadraticCell& cell, double enough) const {
-  return pieces(cell, meridian(cell.c), enough);
-}
-
-// Distance from the major circle along the cell, bounded below by a quadratic in a and b. With the centre at
-// radius r0 and distance D0 from the circle, and a displacement split along the gradient n, the meridian
-// tangent t and the ring's tangent p:
-//   D = hypot(D0 + dn + n_r e, dt + t_r e) >= D0 + dn + k_p dp^2 + k_t (dt + t_r e)^2,
-// where e, the radius that dp adds, lies between dp^2 / (2 (greatest radius)) and dp^2 / (2 (least radius)).
-// k_t is one over the greatest sum of hypotenuse and leg; k_p is n_r times the bound of e on the safe side
-// (inside the ring n_r < 0: the tool curves towards the surface there). Both squares are multiplied out: the
-// products of what is linear in the cell with what bends in it (C, E, F, and e again) are cubic with known
-// coefficients, and what is left of fourth order goes into the loss.
-QuadraticBound ClearanceBound::ring(const QuadraticCell& cell, const Meridian& at) const {
-  const Vec3& axis = pose_.axis;
-  const double distance = hypotenuse(at.r - tool_.major_radius, at.z);
-  const Vec3 around = axis.cross(at.radial);
-  const double nr = (at.r - tool_.major_radius) / distance, nz = at.z / distance;
-  // Components of the cell's vectors along the radius, n, t and the ring's tangent.
-  struct Component {
-    double r, n, t, p;
-  };
-  const auto split = [&](const Vec3& v) -> Component {
-    const double r = at.radial.dot(v), z = axis.dot(v);
-    return {r, nr * r + nz * z, nr * z - nz * r, around.dot(v)};
-  };
-  const Component A = split(cell.A), B = split(cell.B), C = split(cell.C), E = split(cell.E),
-                  F = split(cell.F);
-  const auto rest = [&](double Component::*k) { return std::abs(C.*k) + std::abs(E.*k) + std::abs(F.*k); };
-  const auto linear = [&](double Component::*k) { return std::abs(A.*k) + std::abs(B.*k); };
-  const double p_linear = linear(&Component::p), p_rest = rest(&Component::p), p_most = p_linear + p_rest;
-  const double t_linear = linear(&Component::t);
-  const double dr = std::min(linear(&Component::r) + rest(&Component::r), cell.radius);
-  // One over twice the least, the centre's and the greatest radius.
-  const double w_most = 0.5 / (at.r - dr), w = 0.5 / at.r;
-  const double w_least = 1 / (at.r + dr + hypotenuse(at.r + dr, p_most));
-  const double bulge = p_most * p_most * w_most;
-  const double t_most = t_linear + rest(&Component::t) + std::abs(nz) * bulge;
-  const double leg = distance + linear(&Component::n) + rest(&Component::n) + std::abs(nr) * bulge;
-  const double kt = 1 / (leg + hypotenuse(leg, t_most));
-  const double kp = nr * (nr >= 0 ? w_least : w_most);
-  // The cubic terms 2 kp p_linear p_rest + 2 kt t_linear (t_rest + t_r p_linear^2 w), coefficient by
-  // coefficient.
-  const double bent = -nz * w;
-  const double Ct = C.t + bent * A.p * A.p, Et = E.t + 2 * bent * A.p * B.p, Ft = F.t + bent * B.p * B.p;
-  const double aaa = 2 * (kp * A.p * C.p + kt * A.t * Ct);
-  const double aab = 2 * (kp * (A.p * E.p + B.p * C.p) + kt * (A.t * Et + B.t * Ct));
-  const double abb = 2 * (kp * (A.p * F.p + B.p * E.p) + kt * (A.t * Ft + B.t * Et));
-  const double bbb = 2 * (kp * B.p * F.p + kt * B.t * Ft);
-  // What is left of the bulge beside p_linear^2 w.
-  const double bulge_rest =
-      (2 * p_linear * p_rest + p_rest * p_rest) * w_most + p_linear * p_linear * (w_most - w_least);
-  return {distance - tool_.minor_radius,
-          A.n,
-          B.n,
-          C.n + kp * A.p * A.p + kt * A.t * A.t,
-          E.n + 2 * (kp * A.p * B.p + kt * A.t * B.t),
-          F.n + kp * B.p * B.p + kt * B.t * B.t,
-          cell.error + (kp < 0 ? -kp * p_rest * p_rest : 0.0) +
-              2 * kt * t_linear * std::abs(nz) * bulge_rest + std::abs(aaa) + std::abs(aab) + std::abs(abb) +
-              std::abs(bbb)};
-}
-
-ClearanceBound::Answer ClearanceBound::pieces(const QuadraticCell& cell,
-                                              const Meridian& at,
-                                              double enough) const {
+  const Meridian at = meridian(cell.c);
   Answer answer{kInfinity, kInfinity};
   // A convex piece's signed distance is convex, so a supporting plane at the centre bounds it from below.
   const auto include = [&](double r0, double r1, double z0, double z1) {

@@ -10,12 +10,6 @@ namespace mpm {
 // Least value of f + g1 a + g2 b + h11 a^2 + h12 a b + h22 b^2 over a, b in [-1, 1].
 double least_quadratic(double f, double g1, double g2, double h11, double h12, double h22);
 
-// f + g1 a + g2 b + h11 a^2 + h12 a b + h22 b^2 - loss max(|a|, |b|)^3: a lower bound of the ring's clearance
-// over a cell.
-struct QuadraticBound {
-  double f, g1, g2, h11, h12, h22, loss;
-};
-
 // One tool at one pose; asks may come from several threads.
 class ClearanceBound {
  public:
@@ -25,20 +19,18 @@ class ClearanceBound {
     double lower;   // mm: no point of the cell has a smaller signed distance from the tool's body
     double center;  // mm: signed distance of the cell's centre point; only as large as it is known to be
   };
-  // Stops refining the bound when it has reached `enough`. First order by the cell's radius, then second
-  // order with the tool's signed curvature (docs/methods/exact.md, section "Bound").
-  Answer operator()(const QuadraticCell& cell, double enough) const;
+  // The ring alone, to second order, over four cells; see RingKernel::quadratic.
+  void quadratic(const CellBatch& cells, RingQuadratic& answer) const {
+    kernel_.quadratic(frame_, cells, answer);
+  }
 
-  // The ring alone, to second order. Requires the cell to keep off the tool axis: radius of its centre >
-  // cell.radius.
-  QuadraticBound ring(const QuadraticCell& cell) const;
-
-  // The rest of the body alone.
+  // The rest of the body alone; stops refining the bound when it has reached `enough`.
   Answer pieces(const QuadraticCell& cell, double enough) const;
 
-  // The ring, and cheaply the rest of the body, over four cells at once: first and second order as above.
-  void four(const CellBatch& cells, double enough, RingAnswer& answer) const {
-    kernel_.bound(frame_, cells, enough, answer);
+  // The ring, and cheaply the rest of the body, over four cells at once: first order by the cell's radius,
+  // then second order with the tool's signed curvature (docs/methods/exact.md, section "Bound").
+  void four(const CellBatch& cells, const BoundAsk& ask, RingAnswer& answer) const {
+    kernel_.bound(frame_, cells, ask, answer);
   }
 
   // The four quarters of one cell of a batch; their error is the whole's.
@@ -54,8 +46,6 @@ class ClearanceBound {
     Vec3 radial;  // unit
   };
   Meridian meridian(const Vec3& s) const;
-  QuadraticBound ring(const QuadraticCell& cell, const Meridian& at) const;
-  Answer pieces(const QuadraticCell& cell, const Meridian& at, double enough) const;
 
   const Tool& tool_;
   ToolPose pose_;

@@ -41,20 +41,41 @@ inline Vec3 ring_normal(const Tool& tool, const ToolPose& pose, const Vec3& s) {
   return (pose.torus_center + tool.major_radius * radial.normalized() - s).normalized();
 }
 
-// Tilt (radians, in (-pi/2, 3 pi/2]: no motion starts with the tool turned farther back) at which the ring
-// reaches a surface point, given in the insert frame: the point's circle about u1 meets the lower half of the
-// torus there. NaN where it never does. Closed form: with the power g = |s|^2 - Ri^2 of the point against the
-// insert's ball, y = Ro + g/(4 Ro) - Ro su^2/g and z = -sqrt(sv^2 + sw^2 - y^2); the squared torus terms
-// cancel. Requires Ro > 0. A point inside the ball (g <= 0) gives NaN: no tilt brings the ring to it.
-inline double circular_ray(const Tool& tool, const Vec3& local) {
+// A tilt given by a positive multiple of its cosine and sine; NaN for none.
+struct TiltDirection {
+  double c, s;
+  // Radians, in (-pi/2, 3 pi/2]: no motion starts with the tool turned farther back.
+  double angle() const {
+    const double tilt = std::atan2(s, c);
+    return tilt <= -kPi / 2 ? tilt + 2 * kPi : tilt;
+  }
+  // Grows with angle(), without its cost; NaN for none.
+  double order() const {
+    const double part = s / (std::abs(s) + std::abs(c));
+    return c < 0 ? 2 - part : c > 0 || s > 0 ? part : 3;
+  }
+};
+
+// The tilt at which the ring reaches a surface point, given in the insert frame: the point's circle about u1
+// meets the lower half of the torus there. None where it never does. Closed form: with the power g = |s|^2 -
+// Ri^2 of the point against the insert's ball, y = Ro + g/(4 Ro) - Ro su^2/g and z = -sqrt(sv^2 + sw^2 -
+// y^2); the squared torus terms cancel. Requires Ro > 0. A point inside the ball (g <= 0) has none: no tilt
+// brings the ring to it.
+inline TiltDirection circular_ray_direction(const Tool& tool, const Vec3& local) {
   const double power = local.squaredNorm() - tool.minor_radius * tool.minor_radius;
-  if (!(power > 0)) return kNaN;
+  if (!(power > 0)) return {kNaN, kNaN};
   const double ro = tool.major_radius;
   const double y = ro + power / (4 * ro) - ro * local.x() * local.x() / power;
   const double z2 = local.y() * local.y() + local.z() * local.z() - y * y;
-  if (!(z2 >= 0)) return kNaN;
-  const double tilt = std::atan2(-std::sqrt(z2), y) - std::atan2(local.z(), local.y());
-  return tilt <= -kPi / 2 ? tilt + 2 * kPi : tilt > 3 * kPi / 2 ? tilt - 2 * kPi : tilt;
+  if (!(z2 >= 0)) return {kNaN, kNaN};
+  // The angle from the point's direction to that of its meeting with the ring.
+  const double z = -std::sqrt(z2);
+  return {y * local.y() + z * local.z(), z * local.y() - y * local.z()};
+}
+
+// The same as an angle, radians; NaN for none.
+inline double circular_ray(const Tool& tool, const Vec3& local) {
+  return circular_ray_direction(tool, local).angle();
 }
 
 }  // namespace mpm

@@ -1,18 +1,21 @@
 #include "mpm/contact/merging_contact.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace mpm {
 namespace {
 
-constexpr double kReach = 1.0 / 16;  // cutter radii from P to the two points of the valley
-constexpr double kFarthest = 3;      // reaches: how far the parabola is believed
-constexpr int kAcrossSteps = 4;      // Newton's, onto the valley
-constexpr double kOnValley = 1e-6;   // cutter radii: a step shorter than this is the last
-constexpr double kNoGain = 1e-11;    // radians: a minimum this little under the limit is P itself
+constexpr double kReach = 1.0 / 16;   // cutter radii from P to the two points of the valley
+constexpr double kFarthest = 3;       // reaches: how far the parabola is believed
+constexpr double kLeastReach = 1e-4;  // cutter radii: a border nearer than this is P's
+constexpr int kAcrossSteps = 4;       // Newton's, onto the valley
+constexpr double kOnValley = 1e-6;    // cutter radii: a step shorter than this is the last
+constexpr double kNoGain = 1e-11;     // radians: a minimum this little under the limit is P itself
 
 struct ValleyPoint {
   Vec2 at;
+  double along = 0;  // mm
   double arrival = kInfinity;
 };
 
@@ -49,13 +52,16 @@ class Valley {
     return directions_.allFinite() && !directions_.col(0).isZero(0) && std::isfinite(drift_);
   }
 
-  // The point of the valley `along` mm from P; no arrival where it leaves the face.
+  // The point of the valley `along` mm from P, or where it meets the border of the face on the way; without
+  // an arrival where P is on that border.
   ValleyPoint at(double along) const {
+    along *= inside_part(directions_ * Vec2(along, drift_ * along));
+    if (!(std::abs(along) > kLeastReach * tool_.radius())) return {};
     double across = drift_ * along;
     ValleyPoint point;
+    point.along = along;
     for (int k = 0; k < kAcrossSteps; ++k) {
-      point.at = first_ + directions_ * Vec2(along, across);
-      if (!inside(point.at)) return {};
+      point.at = into_domain(first_ + directions_ * Vec2(along, across));
       const SurfacePoint p = face_.surface.evaluate(point.at.x(), point.at.y());
       point.arrival = approach_.arrival(p.s);
       if (!(point.arrival < kInfinity)) return {};
@@ -72,9 +78,22 @@ class Valley {
   }
 
  private:
-  bool inside(const Vec2& uv) const {
+  // How much of a move from P stays on the face's domain.
+  double inside_part(const Vec2& move) const {
     const ParamBox& d = face_.surface.domain();
-    return uv.x() >= d.u0 && uv.x() <= d.u1 && uv.y() >= d.v0 && uv.y() <= d.v1;
+    double part = 1;
+    const auto limit = [&](double t, double dt, double lo, double hi) {
+      if (t + dt < lo) part = std::min(part, (lo - t) / dt);
+      if (t + dt > hi) part = std::min(part, (hi - t) / dt);
+    };
+    limit(first_.x(), move.x(), d.u0, d.u1);
+    limit(first_.y(), move.y(), d.v0, d.v1);
+    return part;
+  }
+
+  Vec2 into_domain(const Vec2& uv) const {
+    const ParamBox& d = face_.surface.domain();
+    return {std::clamp(uv.x(), d.u0, d.u1), std::clamp(uv.y(), d.v0, d.v1)};
   }
 
   const Tool& tool_;
@@ -102,8 +121,11 @@ std::optional<Vec2> merging_contact(const Tool& tool,
   if (!(before.arrival < kInfinity) || !(after.arrival < kInfinity))
     return least < curvature ? std::optional(before.arrival < after.arrival ? before.at : after.at)
                              : std::nullopt;
-  const double slope = (after.arrival - before.arrival) / (2 * h);
-  const double bend = (after.arrival + before.arrival - 2 * curvature) / (h * h);
+  // The parabola through both and P.
+  const double forward = (after.arrival - curvature) / after.along,
+               backward = (before.arrival - curvature) / before.along;
+  const double bend = 2 * (forward - backward) / (after.along - before.along);
+  const double slope = forward - 0.5 * bend * after.along;
   const double farthest = std::copysign(kFarthest * h, -slope);
   const double along = bend > 0 && std::abs(slope) < bend * kFarthest * h ? -slope / bend : farthest;
   if (slope * along + 0.5 * bend * along * along > -kNoGain) return std::nullopt;

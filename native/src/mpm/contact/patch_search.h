@@ -15,6 +15,8 @@ struct Derivatives {
   Vec2 gradient = Vec2::Constant(kNaN);
   Eigen::Matrix2d hessian = Eigen::Matrix2d::Constant(kNaN);
   double gap_rate = 1;
+  // The circle of the ring through the point: its unit tangent and its curvature (1/mm).
+  Vec3 ring_tangent = Vec3::Zero(), ring_curvature = Vec3::Zero();
   bool usable() const { return gradient.allFinite() && hessian.allFinite(); }
 };
 
@@ -57,7 +59,7 @@ inline Vec2 descent_step(const Derivatives& a, FreeParameters free) {
   Vec2 step = Vec2::Zero();
   if (free.u && free.v) {
     const double huu = a.hessian(0, 0), huv = a.hessian(0, 1), hvv = a.hessian(1, 1);
-    const double mean = 0.5 * (huu + hvv), spread = std::hypot(0.5 * (huu - hvv), huv);
+    const double mean = 0.5 * (huu + hvv), spread = hypotenuse(0.5 * (huu - hvv), huv);
     // Eigenvalues mean +- spread; the lesser is lifted to a positive fraction of the greater curvature.
     const double least = mean - spread, most = std::max(std::abs(mean) + spread, kRoundoff);
     const double shift = least > kConvexPart * most ? 0.0 : kLiftedPart * most - least;
@@ -80,6 +82,21 @@ inline double free_slope(const Derivatives& a, const SurfacePoint& p, FreeParame
     return is_free && length > 0 ? std::abs(g) * a.gap_rate / length : 0.0;
   };
   return std::max(along(free.u, a.gradient.x(), p.su), along(free.v, a.gradient.y(), p.sv));
+}
+
+// The valley in which the ring comes near a surface follows the ring, and a long step along it has to bend
+// with it: what is to be added to `step`, of second order, for its end to lie on the ring's circle through
+// `p`.
+inline Vec2 ring_bend(const Derivatives& a, const SurfacePoint& p, const Vec2& step) {
+  const double along = a.ring_tangent.dot(step.x() * p.su + step.y() * p.sv);
+  const Vec3 bend = 0.5 * along * along * a.ring_curvature -
+                    0.5 * (step.x() * step.x() * p.suu + step.y() * step.y() * p.svv) -
+                    step.x() * step.y() * p.suv;
+  const double uu = p.su.squaredNorm(), uv = p.su.dot(p.sv), vv = p.sv.squaredNorm();
+  const double det = uu * vv - uv * uv, bu = bend.dot(p.su), bv = bend.dot(p.sv);
+  const Vec2 result((vv * bu - uv * bv) / det, (uu * bv - uv * bu) / det);
+  // A step so long that its bend is no smaller says nothing of the ring any more.
+  return result.squaredNorm() < step.squaredNorm() ? result : Vec2::Zero();
 }
 
 // Minimises `objective` over a patch. An Objective has
@@ -110,7 +127,8 @@ class PatchSearch {
       const Vec2 step = bounded_step(best, a, free);
       if (free_slope(a, p, free) <= kParallel && std::abs(a.gradient.dot(step)) <= kGained) break;
       if (std::abs(a.gradient.dot(step)) > kGained) {
-        if (!advance(best, p, step)) break;
+        const Vec2 bend = free.u && free.v ? ring_bend(a, p, step) : Vec2::Zero();
+        if (!advance(best, p, step, bend)) break;
       } else if (polished++ == kPolishingSteps || !polish(best, p, step)) {
         break;
       }
@@ -148,11 +166,12 @@ class PatchSearch {
     return true;
   }
 
-  // Halves the step until the value is less; false when no step is.
-  bool advance(PatchMinimum& best, SurfacePoint& p, Vec2 step) const {
-    for (int k = 0; k < kMaxHalvings; ++k, step *= 0.5) {
-      const double u = std::clamp(best.u + step.x(), box_.u0, box_.u1);
-      const double v = std::clamp(best.v + step.y(), box_.v0, box_.v1);
+  // Halves the step until the value is less; false when no step is. What the step is bent by shrinks as its
+  // square.
+  bool advance(PatchMinimum& best, SurfacePoint& p, Vec2 step, Vec2 bend) const {
+    for (int k = 0; k < kMaxHalvings; ++k, step *= 0.5, bend *= 0.25) {
+      const double u = std::clamp(best.u + step.x() + bend.x(), box_.u0, box_.u1);
+      const double v = std::clamp(best.v + step.y() + bend.y(), box_.v0, box_.v1);
       if (u == best.u && v == best.v) return false;
       const SurfacePoint q = patch_.evaluate(u, v);
       const double value = objective_.value(q.s);

@@ -4,7 +4,7 @@
 
 namespace mpm {
 
-const RingKernel kAvx2RingKernel{bound, quarter};
+const RingKernel kAvx2RingKernel{bound, quadratic, quarter};
 
 }  // namespace mpm
 #endif

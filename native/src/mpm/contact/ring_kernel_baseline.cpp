@@ -2,7 +2,7 @@
 
 namespace mpm {
 
-const RingKernel kBaselineRingKernel{bound, quarter};
+const RingKernel kBaselineRingKernel{bound, quadratic, quarter};
 
 const RingKernel& ring_kernel() {
 #ifdef MPM_AVX2

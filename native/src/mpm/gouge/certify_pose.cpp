@@ -1,6 +1,7 @@
 #include "mpm/gouge/certify_pose.h"
 
 #include <algorithm>
+#include <bit>
 #include <vector>
 
 #include "mpm/contact/contact_zone.h"
@@ -10,10 +11,12 @@ namespace {
 
 constexpr double kTrimResolution = 1e-6;  // mm
 constexpr double kFinestCell = 1e-10;     // mm: smaller cells are all rounding
-constexpr double kZoneCell =
-    1.0 / 48;  // of the cutter's radius: cells from this size down may be near a contact
-constexpr double kZoneGap = 1.0 / 10000;  // of the cutter's radius: how near
-constexpr std::size_t kMaxZones = 8;
+// Of the cutter's radius: cells from this size down, with a centre this near, are searched for a contact.
+constexpr double kContactCell = 1.0 / 8, kContactGap = 1.0 / 1000;
+constexpr std::size_t kMaxContacts = 8;
+constexpr double kApart = 12;           // cell radii from a known contact that another one may have
+constexpr double kOwn = 2;              // cell radii from a known contact in which it is the cell's own
+constexpr double kZoneCell = 1.0 / 48;  // of the cutter's radius: the cells at a contact that need its zone
 constexpr double kDeeper = 1.1;  // after a violation, points less than this much deeper are not looked for
 // Below a leaf its quadratic serves as long as its error is this part of the gap; then Taylor's formula takes
 // over.
@@ -54,11 +57,19 @@ struct Cell {
   double radius, error;  // mm
 };
 
+// A point where the surface comes nearest to the ring, inside the tool or not.
+struct Contact {
+  PatchMinimum lowest;
+  const CellTree::Node* node;  // one of its patch
+  bool zone_tried = false;
+};
+
 // Kept from call to call for its memory only.
 struct Workspace {
   std::vector<Group> stack;
   std::vector<CellBatch> arena;
   std::vector<ContactZone> zones;
+  std::vector<Contact> contacts;
 };
 
 class Search {
@@ -75,11 +86,12 @@ class Search {
         options_(options),
         stack_(workspace.stack),
         arena_(workspace.arena),
-        zones_(workspace.zones) {}
+        zones_(workspace.zones),
+        contacts_(workspace.contacts) {}
 
   Certificate run() {
     result_.lo = options_.enough;
-    stack_.clear(), zones_.clear();
+    stack_.clear(), zones_.clear(), contacts_.clear();
     for (std::uint32_t i = 0; i < tree_.roots().size(); i += kLanes)
       stack_.push_back({Group::Kind::roots,
                         first_lanes(std::min<std::size_t>(kLanes, tree_.roots().size() - i)),
@@ -110,33 +122,33 @@ class Search {
   bool settle(const Group& group) {
     // Whatever lies above it in the arena belonged to groups that are done: the stack is last in, first out.
     if (group.kind == Group::Kind::quarters) arena_used_ = group.batch + 1;
+    // What is deeper than the deepest point known may be left open: that point is the answer.
+    const double proven = std::min(-options_.tolerance, deep_enough_);
+    const double searched =
+        result_.cells <= options_.sharp_budget ? std::min(-options_.sharpness, deep_enough_) : proven;
     RingAnswer ring;
-    bound_.four(cells_of(group), options_.enough, ring);
-    const double wanted = result_.cells <= options_.sharp_budget ? options_.sharpness : options_.tolerance;
-    for (int lane = 0; lane < kLanes; ++lane) {
-      if (!(group.cells >> lane & 1)) continue;
+    bound_.four(cells_of(group), {options_.enough, proven, searched}, ring);
+    for (unsigned left = group.cells; left; left &= left - 1) {
+      const int lane = std::countr_zero(left);
       ++result_.cells;
       double lower = ring.lower[lane], center = ring.center[lane];
+      bool is_open = ring.open >> lane & 1;
       // What the ring leaves open is split whatever the rest of the body says.
-      const auto settled = [&] { return lower >= -wanted || lower >= deep_enough_; };
-      if (settled() && !(ring.below_pieces >> lane & 1)) {
+      if (!is_open && !(ring.clear_of_pieces >> lane & 1)) {
         const ClearanceBound::Answer rest = bound_.pieces(get_lane(cells_of(group), lane), options_.enough);
         lower = std::min(lower, rest.lower), center = std::min(center, rest.center);
+        is_open = lower < proven;
       }
-      if (settled())
+      if (!is_open)
         result_.lo = std::min(result_.lo, lower);
-      else if (!open(cell_of(group, cells_of(group), lane, lower, center, ring)))
+      else if (!open(cell_of(group, lane, lower, center, ring)))
         return false;
     }
     return true;
   }
 
-  Cell cell_of(const Group& group,
-               const CellBatch& cells,
-               int lane,
-               double lower,
-               double center,
-               const RingAnswer& ring) const {
+  Cell cell_of(const Group& group, int lane, double lower, double center, const RingAnswer& ring) const {
+    const CellBatch& cells = cells_of(group);
     const bool quarter = group.kind == Group::Kind::quarters;
     const std::uint32_t index = quarter ? group.node
                                 : group.kind == Group::Kind::roots
@@ -159,35 +171,51 @@ class Search {
             cells.error[lane]};
   }
 
-  // A cell that its bound did not settle: looks at its centre, asks the zones, splits it.
+  // A cell that its bound did not settle: looks at its centre, asks the zones, looks for a contact in it,
+  // splits it.
   bool open(const Cell& cell) {
-    const ParamBox& box = cell.box;
     if (!look_at_center(cell)) return false;
     if (in_zone(cell)) return true;
-    const bool may_hold_contact = !cell.trimmed && cell.node.patch && cell.a == cell.a &&
-                                  cell.radius < kZoneCell * tool_.radius() &&
-                                  std::abs(cell.center) < kZoneGap * tool_.radius();
-    if (may_hold_contact && zones_tried_ < kMaxZones) {
-      if (!add_zone(cell.node,
-                    box.u_mid() + cell.a * 0.5 * (box.u1 - box.u0),
-                    box.v_mid() + cell.b * 0.5 * (box.v1 - box.v0)))
-        return false;
-      if (in_zone(cell)) return true;
+    if (may_hold_contact(cell)) {
+      Contact* contact = nearest_contact(cell);
+      const bool is_new = !contact || distance(*contact, cell) > kApart * cell.radius;
+      if (is_new && contacts_.size() < kMaxContacts) {
+        if (!look_for_contact(cell)) return false;
+        contact = &contacts_.back();
+        // Its only minimum was searched, wherever that led.
+        if (is_proven(cell)) return note(cell);
+      }
+      if (contact && distance(*contact, cell) < kOwn * cell.radius) {
+        if (is_proven(cell)) return note(cell);
+        if (cell.radius < kZoneCell * tool_.radius() && add_zone(*contact) && in_zone(cell)) return true;
+      }
     }
-    if (cell.radius < kFinestCell) {
-      result_.lo = std::min(result_.lo, cell.lower);
-      return true;
-    }
+    if (cell.radius < kFinestCell) return note(cell);
     split(cell);
     return true;
   }
 
+  bool is_proven(const Cell& cell) const { return cell.lower >= -options_.tolerance; }
+
+  // A cell that is done with.
+  bool note(const Cell& cell) {
+    result_.lo = std::min(result_.lo, cell.lower);
+    return true;
+  }
+
+  bool may_hold_contact(const Cell& cell) const {
+    return !cell.trimmed && cell.node.patch && cell.a == cell.a &&
+           cell.radius < kContactCell * tool_.radius() &&
+           std::abs(cell.center) < kContactGap * tool_.radius();
+  }
+
   bool look_at_center(const Cell& cell) {
+    // The centre of a quarter is only near the surface.
+    const double at_least = cell.quarter ? cell.center - cell.error : cell.center;
+    if (at_least >= result_.hi) return true;
     const double u = cell.box.u_mid(), v = cell.box.v_mid();
     if (!cell.quarter)
       return look_at(cell.trimmed, cell.radius, {cell.node.face, u, v, cell.node.cell.c, cell.center});
-    if (cell.center - cell.error >= result_.hi) return true;
-    // The centre of a quarter is only near the surface.
     const Vec3 s = cell.node.patch->point(u, v);
     return look_at(cell.trimmed, cell.radius, {cell.node.face, u, v, s, signed_distance(tool_, pose_, s)});
   }
@@ -215,18 +243,42 @@ class Search {
     return false;
   }
 
-  // Looks for the contact near (u, v) and the zone it proves; false when it is a violation that ends the
+  double distance(const Contact& contact, const Cell& cell) const {
+    const auto& center = cells_of(cell.group).term[CellBatch::center];
+    return (contact.lowest.s - Vec3(center[0][cell.lane], center[1][cell.lane], center[2][cell.lane])).norm();
+  }
+
+  Contact* nearest_contact(const Cell& cell) {
+    Contact* nearest = nullptr;
+    double least = kInfinity;
+    for (Contact& contact : contacts_)
+      if (const double d = distance(contact, cell); d < least) least = d, nearest = &contact;
+    return nearest;
+  }
+
+  // Goes downhill from where the cell's quadratic is least; false when it meets a violation that ends the
   // search.
-  bool add_zone(const CellTree::Node& node, double u, double v) {
-    for (const ContactZone& zone : zones_)
-      if (zone.contains(node.patch, {u, u, v, v})) return true;
-    ++zones_tried_;
-    const PatchMinimum lowest = lowest_point(tool_, pose_, *node.patch, u, v);
-    if (!tree_.model().faces()[node.face].trim.contains(lowest.u, lowest.v)) return true;
-    if (!look_at(false, 0, {node.face, lowest.u, lowest.v, lowest.s, lowest.value})) return false;
-    if (lowest.value < -options_.sharpness) return true;
-    const auto zone = contact_zone(tool_, pose_, bound_, *node.patch, node.patch_third, lowest);
-    if (zone && zone->lower >= -options_.sharpness) zones_.push_back(*zone);
+  bool look_for_contact(const Cell& cell) {
+    const ParamBox& box = cell.box;
+    const double u = box.u_mid() + cell.a * 0.5 * (box.u1 - box.u0);
+    const double v = box.v_mid() + cell.b * 0.5 * (box.v1 - box.v0);
+    const PatchMinimum lowest = lowest_point(tool_, pose_, *cell.node.patch, u, v);
+    contacts_.push_back({lowest, &cell.node});
+    if (!tree_.model().faces()[cell.node.face].trim.contains(lowest.u, lowest.v)) {
+      contacts_.back().zone_tried = true;
+      return true;
+    }
+    return look_at(false, 0, {cell.node.face, lowest.u, lowest.v, lowest.s, lowest.value});
+  }
+
+  // False where there is none.
+  bool add_zone(Contact& contact) {
+    if (contact.zone_tried || contact.lowest.value < -options_.sharpness) return false;
+    contact.zone_tried = true;
+    const auto zone =
+        contact_zone(tool_, pose_, bound_, *contact.node->patch, contact.node->patch_third, contact.lowest);
+    if (!zone || zone->lower < -options_.sharpness) return false;
+    zones_.push_back(*zone);
     return true;
   }
 
@@ -281,7 +333,7 @@ class Search {
   std::uint32_t arena_used_ = 0;
   double deep_enough_ = kInfinity;  // mm
   std::vector<ContactZone>& zones_;
-  std::size_t zones_tried_ = 0;
+  std::vector<Contact>& contacts_;
 };
 
 }  // namespace

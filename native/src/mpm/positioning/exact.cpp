@@ -28,6 +28,7 @@ constexpr double kNearLimit =
     0.01;  // rad: a second contact this close to the curvature limit may have rivals
 constexpr double kNoDirection = 1e-9;  // part along the surface that a direction must have
 constexpr double kNoTilt = 1e-9;       // rad
+constexpr double kNoGain = 1e-8;       // mm or rad: a touch earlier by less than this is the same
 
 struct Start {
   std::uint32_t face;
@@ -47,7 +48,8 @@ class Exact final : public Method {
     const double size = std::max(box.lo.cwiseAbs().maxCoeff(), box.hi.cwiseAbs().maxCoeff()) + tool.length();
     judge_.tolerance = options.numbers.at("gouge_mm");
     judge_.budget = std::uint32_t(options.numbers.at("cell_budget"));
-    judge_.sharpness = std::min(std::max(kSharpness, kSharpRoundoff * size), judge_.tolerance);
+    noise_ = kSharpRoundoff * size;
+    judge_.sharpness = std::min(std::max(kSharpness, noise_), judge_.tolerance);
     judge_.sharp_budget = std::min(kSharpBudget, judge_.budget / 2);
     judge_.stop_at_violation = true;
   }
@@ -97,6 +99,7 @@ class Exact final : public Method {
   Tool tool_;
   CellTree tree_;
   double tilt_max_, spin_;
+  double noise_;  // mm: depths down to this are rounding
   CertifyOptions judge_;
 };
 
@@ -135,10 +138,10 @@ Exact::Touch Exact::best_start(const Approach& approach,
                                double limit,
                                Counters& counters) const {
   const Start* best = nullptr;
-  double least = limit;
+  double least = approach.order_of(limit);
   for (const Start& s : starts) {
-    const double x = approach.arrival(s.s);
-    if (x < least) least = x, best = &s;
+    const double order = approach.order(s.s);
+    if (order < least) least = order, best = &s;
   }
   return best ? refine(approach, best->face, best->u, best->v, counters) : Touch{};
 }
@@ -176,12 +179,17 @@ Certificate Exact::first_touch(
     const Certificate certificate = certify_pose(tree_, tool_, approach.pose(x), options);
     counters.cells += certificate.cells;
     const Witness& w = certificate.witness;
-    if (!(w.distance < -options.sharpness) || round == kMaxRounds) return certificate;
+    const bool is_violation = w.distance < -options.sharpness;
+    const bool is_dent = w.distance < -noise_ && options.stop_at_violation;
+    if (!(is_violation || is_dent) || round == kMaxRounds) return certificate;
     // The budget is one for all rounds.
     if (certificate.cells >= options.budget) return certificate;
-    options.budget -= std::uint32_t(certificate.cells);
     const Touch ring = refine(approach, w.face, w.u, w.v, counters);
-    if (ring.at.value < x && !(first && same_contact(ring, *first))) {
+    const bool is_other = !(first && same_contact(ring, *first));
+    // A depth less than asked for is a long way in x where the contacts are about to merge, and only there.
+    if (!is_violation && !(is_other && ring.at.value < x - kNoGain)) return certificate;
+    options.budget -= std::uint32_t(certificate.cells);
+    if (ring.at.value < x && is_other) {
       x = ring.at.value;
       touch = ring;
       continue;
@@ -198,7 +206,12 @@ Certificate Exact::first_touch(
 
 void Exact::finish(Placement& placement, const Certificate& certificate) const {
   placement.clearance_lo = certificate.lo;
+  // The contacts are points of the surface, whether the judge met them or not.
   placement.clearance_hi = certificate.hi;
+  for (const Vec3& contact : {placement.first_contact, placement.second_contact})
+    if (contact.allFinite())
+      placement.clearance_hi =
+          std::min(placement.clearance_hi, signed_distance(tool_, placement.pose, contact));
   // What the tool cannot reach without cutting in (holder in the way, budget spent) is no place to cut.
   if (certificate.verdict != Verdict::free) placement.status = PositionStatus::undecided;
 }

@@ -9,9 +9,10 @@ inline constexpr int kLanes = 4;
 // are compiled for several instruction sets and must not share inline functions with the rest.
 struct alignas(32) CellBatch {
   enum Term { center, a, b, aa, ab, bb };  // c, A, B, C, E, F there
-  double term[6][3][kLanes];               // mm
-  double error[kLanes];                    // mm
-  double radius[kLanes];                   // mm
+  // What the first order needs comes first, side by side in the cache.
+  double radius[kLanes];      // mm
+  double error[kLanes];       // mm
+  double term[6][3][kLanes];  // mm
 };
 
 }  // namespace mpm

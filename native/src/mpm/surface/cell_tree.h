@@ -13,7 +13,6 @@ namespace mpm {
 class CellTree {
  public:
   struct Node {
-    QuadraticCell cell;
     ParamBox box;
     std::uint32_t first_child = 0;  // children are consecutive
     std::uint32_t batch = 0;        // of batches(): the children's cells, in their order
@@ -24,6 +23,7 @@ class CellTree {
     const BezierPatch* patch = nullptr;
     double third = 0;        // third_derivative_bound over the leaf
     double patch_third = 0;  // the same over its whole patch
+    QuadraticCell cell;
   };
 
   // Leaves are about `leaf_size` mm or less, or as small as `max_leaves` allows (at least one a Bézier
