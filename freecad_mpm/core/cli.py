@@ -79,6 +79,9 @@ def make_parser() -> Parser:
     check.add_argument("program", metavar="PROGRAM")
     check.add_argument("--machine", metavar="NAME", required=True, help="a shipped machine or its file")
     check.add_argument("--post", metavar="NAME", help="whose dialect it is; default: the one it looks like")
+    check.add_argument(
+        "--joints", action="store_true", help="it moves the joints: no tool-centre-point control"
+    )
     check.add_argument("--against", metavar="cl.csv", help="poses that the program must meet in their order")
 
     bench = commands.add_parser("bench", help="compare the methods and write bench.json")

@@ -42,7 +42,9 @@ def verify(arguments: Namespace, progress: ProgressLine) -> int:
 
 
 def check(arguments: Namespace, progress: ProgressLine) -> int:
-    found = check_file(arguments.program, arguments.machine, arguments.post, arguments.against)
+    found = check_file(
+        arguments.program, arguments.machine, arguments.post, arguments.against, not arguments.joints
+    )
     print(*found.lines, sep="\n")
     return GOOD if found.good else NOT_GOOD
 

@@ -44,6 +44,8 @@ class ProgramReport:
     nearest_to_pole_deg: float
     tip_error_mm: float  # of the text read back, against the CL list
     axis_error_deg: float
+    tip_between_mm: float  # off its line between two blocks; 0 where the control holds it
+    axis_between_deg: float  # off its great circle
     findings: list[str]
 
     def to_dict(self) -> dict[str, Any]:
@@ -68,6 +70,8 @@ class ProgramReport:
             f"Pole: {self.pole_passages} passages under {POLE_ZONE_DEG:g} deg, "
             f"nearest {self.nearest_to_pole_deg:.3f} deg",
             f"Text parsed back: {self._errors()}",
+            f"Between the blocks: tip off its line <= {self.tip_between_mm:.6f} mm, "
+            f"axis off its great circle <= {self.axis_between_deg:.6f} deg",
             f"Checks: {'passed' if not self.findings else f'{len(self.findings)} findings'}",
             *(f"  {finding}" for finding in listed),
             *([f"  and {more} more"] if more else []),
@@ -103,6 +107,8 @@ def report(
         nearest_to_pole_deg=nearest,
         tip_error_mm=checks.tip_error_mm,
         axis_error_deg=checks.axis_error_deg,
+        tip_between_mm=checks.tip_between_mm,
+        axis_between_deg=checks.axis_between_deg,
         findings=[str(finding) for finding in checks.findings],
     )
 

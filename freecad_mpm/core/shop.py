@@ -7,18 +7,23 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import dialects, machines, posts, program_report
+from .control import Control
 from .errors import blame
 from .job import Job, PostSpec
+from .kinematics import datum_mm
 from .machine_path import MachinePath, machine_path
 from .machines import Machine
-from .motions import control_deviation_deg
+from .motions import control_deviation_deg, control_tip_deviation_mm
 from .plan import Floats, Names, Path, ProgramFile
+from .posts.options import PostOptions
 from .posts.program import PROGRAM_NAME, Program, ProgramTool, program_name
 from .program_check import check_program
 from .program_report import ProgramReport
 from .stages import Stages
 
 FILE_STEM = "program"
+# What rounding to the words' decimals may add to the allowances between two blocks.
+WORD_SLACK = 1.05
 
 
 @dataclass(frozen=True)
@@ -27,19 +32,27 @@ class Shop:
 
     machine: Machine
     post: posts.Post
+    options: PostOptions
 
 
 def find_shop(job: Job) -> Shop:
-    """Raises InputError for a machine or post that there is not, and a program name that controls do not take."""
+    """Raises InputError for a machine or post that there is not, for what the post does not write, and for a program name
+    that controls do not take."""
     with blame(f"{job.source}: [{job.machine.table}] name:"):
         machine = machines.load(job.machine.name)
     with blame(f"{job.source}: [{job.post.table}] name:"):
         post = posts.load(job.post.name)
+    with blame(f"{job.source}:"):
+        options = post.options(job.post.options)
+    if not (job.post.tcp or post.joints):
+        raise job.error(
+            PostSpec.table, "tcp", f"must be true, the post {post.name} writes no joint positions"
+        )
     name = job.post.program_name
     if not PROGRAM_NAME.fullmatch(name):
         right = f"must be {PROGRAM_NAME.pattern}, such as {program_name(name)}"
         raise job.error(PostSpec.table, "program_name", f"{right}, got '{name}'")
-    return Shop(machine, post)
+    return Shop(machine, post, options)
 
 
 @dataclass(frozen=True)
@@ -68,7 +81,7 @@ def run_machine(job: Job, shop: Shop, path: Path, box: tuple[Floats, Floats], st
     program = describe(job, shop, joints, box)
     with blame(f"{job.source}: [{job.post.table}]"):
         text = stages.run("program", shop.post.write, program)
-    checked = stages.run("check", check_text, text, program, path, shop.post.dialect)
+    checked = stages.run("check", check_text, text, job, program, path, shop.post.dialect)
     return Made(joints, ProgramFile(FILE_STEM + shop.post.file_ending, text), checked)
 
 
@@ -81,6 +94,7 @@ def move_machine(job: Job, shop: Shop, path: Path) -> MachinePath:
         path.axis,
         _feeds(job.post, path.kind),
         axis_tolerance_deg=control_deviation_deg(job),
+        tip_tolerance_mm=None if job.post.tcp else control_tip_deviation_mm(job),
     )
 
 
@@ -97,11 +111,19 @@ def describe(job: Job, shop: Shop, joints: MachinePath, box: tuple[Floats, Float
         spindle_rpm=job.post.spindle_rpm,
         moves=joints,
         blank=box,
+        axes_mm=None if job.post.tcp else joints.linear_mm - _datum_mm(shop.machine),
+        options=shop.options,
     )
 
 
-def check_text(text: str, program: Program, path: Path, dialect: str) -> ProgramReport:
+def _datum_mm(machine: Machine) -> Floats:
+    return datum_mm(machine, np.array(machine.setup.part_origin_mm), machine.setup.tool_length_mm)
+
+
+def check_text(text: str, job: Job, program: Program, path: Path, dialect: str) -> ProgramReport:
     """Read the program's text back as a control would, and compare its poses with the path's."""
     parsed = dialects.read(text, dialect)
-    checks = check_program(parsed, program.machine, path.tip, path.axis)
+    between = WORD_SLACK * control_tip_deviation_mm(job), WORD_SLACK * control_deviation_deg(job)
+    control = Control(job.post.tcp, between_mm=between[0], between_deg=between[1])
+    checks = check_program(parsed, program.machine, path.tip, path.axis, control)
     return program_report.report(program, len(parsed.blocks), checks)

@@ -17,6 +17,8 @@ from . import cl_path, compat
 from .job_spec import job_of, post_of
 
 NO_POSITION = -1
+# CAM's words for coolant -> the core's.
+COOLANT = {"None": "off", "Flood": "flood", "Mist": "mist"}
 
 
 @dataclass(frozen=True)
@@ -83,10 +85,12 @@ def _make(op: Any, post: str, path: Path) -> shop.Made:
     job = replace(job, post=replace(job.post, name=post))
     place = shop.find_shop(job)
     joints = shop.move_machine(job, place, path)
-    program = replace(shop.describe(job, place, joints, _box(op)), coolant=op.CoolantMode != "None")
+    program = shop.describe(job, place, joints, _box(op))
+    coolant = COOLANT[op.CoolantMode]
+    program = replace(program, options=replace(program.options, coolant=coolant))
     text = place.post.write(program)
     file = ProgramFile(program.name + place.post.file_ending, text)
-    return shop.Made(joints, file, shop.check_text(text, program, path, place.post.dialect))
+    return shop.Made(joints, file, shop.check_text(text, job, program, path, place.post.dialect))
 
 
 def _path(ops: Sequence[Any]) -> Path:

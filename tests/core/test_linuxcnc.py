@@ -15,7 +15,10 @@ from machine_samples import program_of, two_passes, with_rotary
 
 from freecad_mpm.core import dialects, machines, posts
 
-ROOT = Path(os.environ.get("MPM_LINUXCNC", "/"))
+ROOT = Path(
+    os.environ.get("MPM_LINUXCNC")
+    or next((p for p in ("/", "build/linuxcnc") if Path(p, "usr/bin/rs274").exists()), "/")
+).resolve()
 RS274 = ROOT / "usr/bin/rs274"
 MODULES = ROOT / "usr/lib/linuxcnc/modules"
 LIBRARIES = f"{ROOT / 'usr/lib'}:{ROOT / 'usr/lib/x86_64-linux-gnu'}"

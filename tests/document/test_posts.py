@@ -13,7 +13,7 @@ from stock_post import post_process
 import freecad_mpm
 from freecad_mpm.core import machines
 from freecad_mpm.core import posts as core_posts
-from freecad_mpm.core import program_reader
+from freecad_mpm.core.dialects import din_iso
 from freecad_mpm.core.errors import InputError
 from freecad_mpm.core.program_check import check_round_trip
 from freecad_mpm.document import cl_path, compat, posts, program
@@ -51,7 +51,7 @@ def test_freecads_command_writes_what_ours_writes(op: Any, job: Any, tmp_path: P
 
 
 def test_the_program_takes_the_tool_where_the_path_does(op: Any, job: Any, tmp_path: Path) -> None:
-    read = program_reader.read(post_process(job, tmp_path / "stock.I").decode("ascii"))
+    read = din_iso.read(post_process(job, tmp_path / "stock.I").decode("ascii"))
     moves = cl_path.from_commands(op.Path.Commands)
     trip = check_round_trip(read, machines.load(op.Machine), moves.tip, moves.axis)
     assert trip.findings == []

@@ -3,22 +3,33 @@
 from __future__ import annotations
 
 from .program import Program
-from .writing import VECTOR_DECIMALS, Step, description, number, steps
+from .writing import VECTOR_DECIMALS, Style, description, move_table
 
 FILE_ENDING = ".apt"
 DIALECT = "apt"
+JOINTS = False
+OPTIONS = frozenset({"decimals", "coolant"})
 
 
 def write(program: Program) -> str:
     lines = [f"PARTNO/{program.name}", f"PPRINT/{description(program)}", "UNITS/MM", "MULTAX/ON"]
     lines += [f"LOADTL/{program.tool.number}", f"SPINDL/RPM,{program.spindle_rpm:.0f},CLW"]
-    lines += ["COOLNT/ON"] if program.coolant else []
-    for step in steps(program):
-        lines += _move(step)
-    return "\n".join([*lines, "COOLNT/OFF", "SPINDL/OFF", "FINI", ""])
+    lines += [] if program.options.coolant == "off" else ["COOLNT/ON"]
+    return "\n".join([*lines, *_moves(program), "COOLNT/OFF", "SPINDL/OFF", "FINI", ""])
 
 
-def _move(step: Step) -> list[str]:
-    pose = [number(value) for value in step.tip] + [number(value, VECTOR_DECIMALS) for value in step.axis]
-    before = ["RAPID"] if step.rapid else [f"FEDRAT/MMPM,{number(step.feed)}"] if step.new_feed else []
-    return [*before, f"GOTO/{','.join(pose)}"]
+def _moves(program: Program) -> list[str]:
+    length, part = f"%.{program.options.decimals}f", f"%.{VECTOR_DECIMALS}f"
+    style = Style("RAPID", "", length, ("I", "J", "K"), part, vectors=True, whole=True)
+    table, form = move_table(program, style), "GOTO/" + ",".join((length,) * 3 + (part,) * 3)
+    lines = []
+    for rapid, new_feed, feed, xyz, axis in zip(
+        table.rapid.tolist(),
+        table.show_feed.tolist(),
+        table.feed.tolist(),
+        table.xyz.tolist(),
+        table.turn.tolist(),
+    ):
+        lines += ["RAPID"] if rapid else [f"FEDRAT/MMPM,{feed:.3f}"] if new_feed else []
+        lines.append(form % (*xyz, *axis))
+    return lines
