@@ -41,14 +41,28 @@ class MachinePath(Moves):
     status: Names  # (M,) of _core.JOINT_STATUS, or OFF_LINE
     at_pole: Flags  # (M,) inside the machine's pole cone: the first rotary axis follows its neighbours
 
-    def troubles(self) -> list[str]:
-        """One line for each kind of trouble, with how many moves have it and the first given move that has."""
+    def troubles(self, position: Integers | None = None) -> list[str]:
+        """One line for each kind of trouble: how many moves have it, and the first of the given moves that has.
+
+        position: (N,) of the given moves, as in a plan's path: the line then also names the position that is near.
+        """
         lines = []
         for status, meaning in TROUBLE.items():
             rows = np.flatnonzero(self.status == status)
             if len(rows):
-                lines.append(f"{meaning}: {len(rows)} moves, the first in move {self.source[rows[0]]}")
+                first = int(self.source[rows[0]])
+                at = "" if position is None else _near(position, first)
+                lines.append(f"{meaning}: {len(rows)} moves, the first in move {first}{at}")
         return lines
+
+
+def _near(position: Integers, move: int) -> str:
+    """Words for the last position up to a move, or the first of all."""
+    named = np.flatnonzero(position >= 0)
+    if not len(named):
+        return ""
+    before = named[named <= move]
+    return f" at position {position[before[-1] if len(before) else named[0]]}"
 
 
 @dataclass(frozen=True)

@@ -12,12 +12,16 @@ import numpy as np
 from .job import Job
 from .machines import Machine
 from .plan import UNUSABLE, Path, Positions
+from .rewind import rewinds
 from .shop import Made
 from .statement import not_cut, statement
 from .verdict import PROVEN, Verdict, digging, gouging, undecided
 from .version import __version__
 
 Facts = dict[str, Any]
+
+# So many positions are named in a warning.
+LISTED_POSITIONS = 10
 
 
 def facts(
@@ -59,6 +63,14 @@ def warnings(job: Job, machine: Machine, positions: Positions, path: Path, guara
     left_out = np.count_nonzero(~positions.usable)
     if left_out:
         found.append(f"{left_out} positions ({', '.join(UNUSABLE)}) are left out of the path")
+    turned = rewinds(path)
+    if len(turned):
+        places = ", ".join(map(str, turned[:LISTED_POSITIONS])) + (
+            ", …" if len(turned) > LISTED_POSITIONS else ""
+        )
+        found.append(
+            f"{len(turned)} cuts are interrupted for a rotary axis to rewind on the safe plane, before positions {places}"
+        )
     gaps = not_cut(positions, path)
     if gaps:
         found.append(f"{gaps} moves between neighbours of a pass are not cut: the tool retracts there")

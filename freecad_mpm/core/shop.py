@@ -57,8 +57,9 @@ def find_shop(job: Job) -> Shop:
 
 @dataclass(frozen=True)
 class Made:
-    """What the shop made of a path. `joints` are in the set-up frame."""
+    """What the shop made of a path. `path` and `joints` are in the set-up frame."""
 
+    path: Path
     joints: MachinePath
     program: ProgramFile
     report: ProgramReport
@@ -72,17 +73,18 @@ class Made:
             if findings
             else []
         )
-        return self.joints.troubles() or found
+        return self.joints.troubles(self.path.position) or found
 
 
-def run_machine(job: Job, shop: Shop, path: Path, box: tuple[Floats, Floats], stages: Stages) -> Made:
-    """Joints, program, and the program's text read back and checked; path and part's `box` in the set-up frame."""
-    joints = stages.run("machine", move_machine, job, shop, path)
+def make_program(
+    job: Job, shop: Shop, path: Path, joints: MachinePath, box: tuple[Floats, Floats], stages: Stages
+) -> Made:
+    """The program, and its text read back and checked; path, joints and the part's `box` in the set-up frame."""
     program = describe(job, shop, joints, box)
     with blame(f"{job.source}: [{job.post.table}]"):
         text = stages.run("program", shop.post.write, program)
     checked = stages.run("check", check_text, text, job, program, path, shop.post.dialect)
-    return Made(joints, ProgramFile(FILE_STEM + shop.post.file_ending, text), checked)
+    return Made(path, joints, ProgramFile(FILE_STEM + shop.post.file_ending, text), checked)
 
 
 def move_machine(job: Job, shop: Shop, path: Path) -> MachinePath:

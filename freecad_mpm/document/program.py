@@ -90,7 +90,7 @@ def _make(op: Any, post: str, path: Path) -> shop.Made:
     program = replace(program, options=replace(program.options, coolant=coolant))
     text = place.post.write(program)
     file = ProgramFile(program.name + place.post.file_ending, text)
-    return shop.Made(joints, file, shop.check_text(text, job, program, path, place.post.dialect))
+    return shop.Made(path, joints, file, shop.check_text(text, job, program, path, place.post.dialect))
 
 
 def _path(ops: Sequence[Any]) -> Path:
