@@ -303,7 +303,7 @@ def test_rotary_axes_that_cannot_follow_take_longer():
     axis = directions(20.0, [0.0, 90.0])
     program = program_of(np.array(["rapid", "cut"]), tip, axis, np.full(2, 1000.0))
     report = program_report.report(program, 0, check_program(read(write(program)), dmu80p()))
-    assert report.time_s["cut"] == pytest.approx(90.0 / 7200.0 * 60.0, rel=0.01)
+    assert report.time_s["cut"] == pytest.approx(90.0 / 120.0 + 120.0 / 360.0, rel=0.01)  # d / v + v / a
 
 
 @pytest.mark.parametrize(
