@@ -65,6 +65,11 @@ def make_parser() -> Parser:
     plan = commands.add_parser("plan", help="compute a job: positions, path, program, report")
     plan.add_argument("job", metavar="JOB.toml")
     plan.add_argument("--out", metavar="DIR", required=True, help="folder for the results, made when missing")
+    plan.add_argument(
+        "--proof",
+        action="store_true",
+        help="also write a program that shows whether the machine file is right",
+    )
     _add_threads(plan)
 
     info = commands.add_parser("info", help="list the faces of a part")

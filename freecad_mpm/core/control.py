@@ -24,6 +24,7 @@ class Control:
     # Between the ends of a feed move: of the tip off its line where nothing holds it, of the axis off its great circle.
     between_mm: float = 0.01
     between_deg: float = float("inf")
+    spindle: bool = True  # feed moves cut: the spindle must be on
 
     def setup_of(self, machine: Machine) -> tuple[Floats, float]:
         """Origin of the set-up in the machine frame, and tool length."""

@@ -55,15 +55,13 @@ def check_grammar(program: ParsedProgram) -> list[Finding]:
     return [Finding("grammar", number, text, message) for number, text, message in program.grammar]
 
 
-def check_state(program: ParsedProgram, tcp: bool = True) -> list[Finding]:
-    """The machine is in the right state for every block: spindle, feed, tool-centre-point control, absolute words.
-
-    tcp: whether the control holds the tip; else the program holds joint positions, and that control must stay off.
-    """
+def check_state(program: ParsedProgram, control: Control = Control()) -> list[Finding]:
+    """The machine is in the right state for every block: spindle, feed, tool-centre-point control, absolute words. In a
+    program of joint positions that control must stay off."""
     findings = [
         Finding("state", block.number, block.text, message)
         for before, block in zip([None, *program.blocks], program.blocks)
-        for message in _state_faults(before, block, tcp)
+        for message in _state_faults(before, block, control)
     ]
     if program.blocks and program.blocks[-1].tcp and 129 not in program.blocks[-1].m:
         findings.append(
@@ -72,18 +70,18 @@ def check_state(program: ParsedProgram, tcp: bool = True) -> list[Finding]:
     return findings
 
 
-def _state_faults(before: Block | None, block: Block, tcp: bool) -> list[str]:
+def _state_faults(before: Block | None, block: Block, control: Control) -> list[str]:
     faults = []
     if "T" in block.words and block.tcp:
         faults.append("a tool call while M128 is on")
     if block.machine_datum and block.tcp:
         faults.append("M91 or M92 while M128 is on")
-    if block.tcp and not tcp:
+    if block.tcp and not control.tcp:
         faults.append("M128 is on in a program of joint positions")
-    return faults + (_move_faults(before, block, tcp) if block.moves else [])
+    return faults + (_move_faults(before, block, control) if block.moves else [])
 
 
-def _move_faults(before: Block | None, block: Block, tcp: bool) -> list[str]:
+def _move_faults(before: Block | None, block: Block, control: Control) -> list[str]:
     faults = []
     if block.absolute is not True:
         faults.append("a move that is not absolute: G90 must be on")
@@ -93,7 +91,7 @@ def _move_faults(before: Block | None, block: Block, tcp: bool) -> list[str]:
         faults.append("a move without G00 or G01")
     turns = any(letter in block.words for letter in "ABC") or _new_vector(before, block)
     if block.rapid is False:
-        faults += _feed_faults(block, turns and tcp)
+        faults += _feed_faults(block, control, turns)
     elif turns and before is not None and _travels(before, block) and _turns(before, block):
         faults.append("a rapid that turns and travels at once: its way is not straight")
     return faults
@@ -104,13 +102,13 @@ def _new_vector(before: Block | None, block: Block) -> bool:
     return block.axis is not None and before is not None and before.axis not in (None, block.axis)
 
 
-def _feed_faults(block: Block, needs_tcp: bool) -> list[str]:
+def _feed_faults(block: Block, control: Control, turns: bool) -> list[str]:
     faults = []
-    if not block.spindle:
+    if control.spindle and not block.spindle:
         faults.append("a feed move with the spindle off")
     if not block.feed > 0:
         faults.append("a feed move before any F")
-    if needs_tcp and not block.tcp:
+    if turns and control.tcp and not block.tcp:
         faults.append("rotary axes in a feed move without M128")
     return faults
 
@@ -392,7 +390,7 @@ def check_program(
 ) -> CheckResult:
     """All checks; against the CL list tip (N, 3), axis (N, 3) of the program's frame where it is given."""
     straight = check_straightness(program, machine, control)
-    findings = check_grammar(program) + check_state(program, control.tcp)
+    findings = check_grammar(program) + check_state(program, control)
     findings += check_limits(program, machine, control)
     findings += check_continuity(program, machine, control=control) + straight.findings
     between = (straight.tip_mm, straight.axis_deg)

@@ -113,13 +113,15 @@ def describe(job: Job, shop: Shop, joints: MachinePath, box: tuple[Floats, Float
         spindle_rpm=job.post.spindle_rpm,
         moves=joints,
         blank=box,
-        axes_mm=None if job.post.tcp else joints.linear_mm - _datum_mm(shop.machine),
+        axes_mm=None if job.post.tcp else axes_of(shop.machine, joints),
         options=shop.options,
     )
 
 
-def _datum_mm(machine: Machine) -> Floats:
-    return datum_mm(machine, np.array(machine.setup.part_origin_mm), machine.setup.tool_length_mm)
+def axes_of(machine: Machine, joints: MachinePath) -> Floats:
+    """(M, 3) X, Y and Z as a control without tool-centre-point control counts them."""
+    setup = machine.setup
+    return joints.linear_mm - datum_mm(machine, np.array(setup.part_origin_mm), setup.tool_length_mm)
 
 
 def check_text(text: str, job: Job, program: Program, path: Path, dialect: str) -> ProgramReport:

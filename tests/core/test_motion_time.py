@@ -19,7 +19,12 @@ def seconds_of(tip, axis, feed_mm_per_s, kind=None):
     machine, count = machines.load(MACHINE), len(tip)
     kind = np.array(["rapid"] + ["cut"] * (count - 1)) if kind is None else kind
     moves = machine_path(
-        machine, kind, np.array(tip, float), axis, np.full(count, 60.0 * feed_mm_per_s), axis_tolerance_deg=180.0
+        machine,
+        kind,
+        np.array(tip, float),
+        axis,
+        np.full(count, 60.0 * feed_mm_per_s),
+        axis_tolerance_deg=180.0,
     )
     linear = kinematics.linear_readings(machine, moves.tip, moves.angles_deg, np.zeros(3), 150.0)
     return move_seconds(machine, moves, linear)
@@ -43,7 +48,9 @@ def test_a_straight_line_starts_and_ends_at_rest_in_however_many_blocks(blocks, 
 
 
 def test_a_line_too_short_for_its_feed():
-    assert seconds_of(straight(0.5, 3), upright(4), 400.0).sum() == pytest.approx(2 * np.sqrt(0.5 / LINEAR), rel=1e-9)
+    assert seconds_of(straight(0.5, 3), upright(4), 400.0).sum() == pytest.approx(
+        2 * np.sqrt(0.5 / LINEAR), rel=1e-9
+    )
 
 
 def test_a_reversal_nearly_stops():

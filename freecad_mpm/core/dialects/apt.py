@@ -12,7 +12,7 @@ _NUMBER = r"-?\d+\.\d*"
 _GOTO = re.compile(rf"GOTO/({_NUMBER}(?:,{_NUMBER}){{5}})")
 _FEED = re.compile(rf"FEDRAT/MMPM,({_NUMBER})")
 _SPINDLE = re.compile(r"SPINDL/(?:RPM,\d+,CLW|OFF)")
-_OTHER = re.compile(r"PARTNO/\w+|PPRINT/.*|UNITS/MM|MULTAX/ON|LOADTL/\d+|COOLNT/(?:ON|OFF)|RAPID|FINI")
+_OTHER = re.compile(r"PARTNO/\w+|PPRINT/.*|UNITS/MM|MULTAX/ON|LOADTL/\d+|COOLNT/(?:ON|OFF)|RAPID|STOP|FINI")
 
 
 def read(text: str) -> ParsedProgram:

@@ -132,7 +132,7 @@ def _line(row: str, rules: Rules) -> Line:
     line.machine_datum = bool(rules.datum_words & set(codes))
     if "G28" in codes:  # home, by way of where it stands
         line.lost = "".join(k for k in "XYZ" if k in line.words)
-        line.words = {}
+        line.words, line.machine_datum = {}, True
     if rules.vector and any(k in given for k in rules.vector):
         i, j, k = (float(given.get(name) or 0.0) for name in rules.vector)
         line.axis = (i, j, k)

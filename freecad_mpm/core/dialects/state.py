@@ -120,7 +120,7 @@ def _block(state: State, line: Line, axis: Vector | None) -> Block:
         position=state.position,
         linear=state.linear,
         axis=axis,
-        machine_datum=line.machine_datum or bool(line.lost),
+        machine_datum=line.machine_datum,
     )
 
 

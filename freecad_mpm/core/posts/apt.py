@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .program import Program
-from .writing import VECTOR_DECIMALS, Style, description, move_table
+from .writing import VECTOR_DECIMALS, Style, description, move_table, with_stops
 
 FILE_ENDING = ".apt"
 DIALECT = "apt"
@@ -13,7 +13,8 @@ OPTIONS = frozenset({"decimals", "coolant"})
 
 def write(program: Program) -> str:
     lines = [f"PARTNO/{program.name}", f"PPRINT/{description(program)}", "UNITS/MM", "MULTAX/ON"]
-    lines += [f"LOADTL/{program.tool.number}", f"SPINDL/RPM,{program.spindle_rpm:.0f},CLW"]
+    spindle = f"SPINDL/RPM,{program.spindle_rpm:.0f},CLW" if program.spindle_on else "SPINDL/OFF"
+    lines += [f"LOADTL/{program.tool.number}", spindle]
     lines += [] if program.options.coolant == "off" else ["COOLNT/ON"]
     return "\n".join([*lines, *_moves(program), "COOLNT/OFF", "SPINDL/OFF", "FINI", ""])
 
@@ -30,6 +31,6 @@ def _moves(program: Program) -> list[str]:
         table.xyz.tolist(),
         table.turn.tolist(),
     ):
-        lines += ["RAPID"] if rapid else [f"FEDRAT/MMPM,{feed:.3f}"] if new_feed else []
-        lines.append(form % (*xyz, *axis))
-    return lines
+        before = "RAPID\n" if rapid else f"FEDRAT/MMPM,{feed:.3f}\n" if new_feed else ""
+        lines.append(before + form % (*xyz, *axis))
+    return with_stops(program, lines, "STOP", "PPRINT/{}")

@@ -43,7 +43,7 @@ def _opening(program: Program) -> list[str]:
         f"T{program.tool.number} G17 S{program.spindle_rpm:.0f}" + (" M6" if options.tool_change else ""),
         *_tolerance(program),
         f"G00 {_words(program, rotary, start)} M126",
-        f"G00 {_words(program, 'XY', (x, y))} M3",
+        f"G00 {_words(program, 'XY', (x, y))} {program.spindle_word}",
         " ".join(filter(None, (f"G00 {_words(program, 'Z', (above,))}", options.coolant_word))),
     ]
     return blocks + (["M128", f"G00 {_words(program, rotary, first_rotary(program))}"] if program.tcp else [])

@@ -33,7 +33,7 @@ def _start(program: Program) -> list[str]:
         "G91 G28 Z0.",
         f"T{program.tool.number} M6",
         f"G90 G54 G0 {start}",
-        f"S{program.spindle_rpm:.0f} M3",
+        f"S{program.spindle_rpm:.0f} {program.spindle_word}",
         *([coolant] if coolant else []),
         f"G0 {axis_words(program, 'XY', program.xyz_mm[0, :2])}",
     ]

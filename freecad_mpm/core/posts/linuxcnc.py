@@ -38,7 +38,7 @@ def _start(program: Program) -> list[str]:
         f"T{tool} M6",
         f"G54 G43 H{tool}",
         f"G0 {start}",
-        f"S{program.spindle_rpm:.0f} M3",
+        f"S{program.spindle_rpm:.0f} {program.spindle_word}",
         *([options.coolant_word] if options.coolant_word else []),
     ]
 

@@ -82,9 +82,15 @@ class Program:
     # the tip, and X, Y and Z are its coordinates.
     axes_mm: Floats | None = None
     options: PostOptions = PostOptions()
+    spindle_on: bool = True
     stops: Mapping[int, str] = field(
         default_factory=dict
     )  # move after which the machine waits, and a comment
+
+    @property
+    def spindle_word(self) -> str:
+        """M3, or M5 for a program that only shows the way."""
+        return "M3" if self.spindle_on else "M5"
 
     @property
     def tcp(self) -> bool:

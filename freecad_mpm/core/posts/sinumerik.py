@@ -33,7 +33,9 @@ def _start(program: Program) -> list[str]:
         "TRAFOOF",
         _retract(program),
         f"T{program.tool.number} M6",
-        " ".join(filter(None, (f"S{program.spindle_rpm:.0f} M3", program.options.coolant_word))),
+        " ".join(
+            filter(None, (f"S{program.spindle_rpm:.0f} {program.spindle_word}", program.options.coolant_word))
+        ),
         *_tolerance(program),
         f"G54 D1 G0 {start}",
     ]

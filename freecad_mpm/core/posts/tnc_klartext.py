@@ -47,7 +47,7 @@ def _opening(program: Program, form: Form) -> list[str]:
         f"TOOL CALL {program.tool.number} Z S{program.spindle_rpm:.0f}",
         *_tolerance(program),
         f"L {_words(program, rotary, start)} R0 FMAX M126",
-        f"L {_words(program, 'XY', (x, y))} R0 FMAX M3",
+        f"L {_words(program, 'XY', (x, y))} R0 FMAX {program.spindle_word}",
         " ".join(filter(None, (f"L {_words(program, 'Z', (above,))} R0 FMAX", options.coolant_word))),
     ]
     return blocks + ([form.tcp_on, _turn_above(program, form, (x, y, above))] if program.tcp else [])
