@@ -27,12 +27,17 @@ class Walk:
         self._axis = [tuple(d) for d in axis]
         self._tip_tolerance_mm, self._axis_tolerance_deg = tip_tolerance_mm, axis_tolerance_deg
         self._may_rise = may_rise
+        self._away = True  # not on the list yet, or for another tool
         self.next = 0  # pose of the list that is expected
         self._worst: Errors = (0.0, 0.0)
         self._last: Errors = (
             0.0,
             0.0,
         )  # of the last pose of the list: a later block may still meet it better
+
+    def leave(self) -> None:
+        """The program leaves the list, for another tool: at rapid rate it may go anywhere until it meets the next pose."""
+        self._away = True
 
     @property
     def tip_error_mm(self) -> float:
@@ -47,8 +52,8 @@ class Walk:
         """The program's next pose: what is wrong with it, or an empty string."""
         if self._meets(self.next, tip, axis):
             self._go_to(self.next, tip, axis)
-        elif self.next == 0:
-            return "" if rapid else "a feed move before the first pose of the CL list"
+        elif self._away:
+            return "" if rapid else f"a feed move before pose {self.next} of the CL list"
         elif self._meets(self.next - 1, tip, axis, LINGERING):
             self._last = min(self._last, self._errors(self.next - 1, tip, axis), key=self._in_tolerances)
         elif self.next == len(self._tip):
@@ -71,7 +76,7 @@ class Walk:
     def _go_to(self, pose: int, tip: Point, axis: Point) -> None:
         self._note(self._last)
         self._last = self._errors(pose, tip, axis)
-        self.next = pose + 1
+        self.next, self._away = pose + 1, False
 
     def _note(self, errors: Errors) -> None:
         self._worst = max(self._worst[0], errors[0]), max(self._worst[1], errors[1])

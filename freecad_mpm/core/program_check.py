@@ -141,7 +141,15 @@ def check_round_trip(
     walk = Walk(tip, axis, tip_tolerance_mm, axis_tolerance_deg, may_rise=not control.tcp)
     findings = []
     rapid = motion.rapid[poses.row].tolist()
-    for row, at, direction, fast in zip(poses.row.tolist(), poses.tip.tolist(), poses.axis.tolist(), rapid):
+    tools = [i for i, block in enumerate(program.blocks) if "T" in block.words]
+    calls = np.searchsorted(tools, motion.block[poses.row]).tolist()  # tool calls before each pose
+    last_call = 0
+    for call, row, at, direction, fast in zip(
+        calls, poses.row.tolist(), poses.tip.tolist(), poses.axis.tolist(), rapid
+    ):
+        if call != last_call:
+            walk.leave()
+            last_call = call
         message = walk.step(at, direction, fast)
         if message:
             findings.append(_finding("round trip", program, motion, row, message))

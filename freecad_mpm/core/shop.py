@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,7 +18,7 @@ from .motions import control_deviation_deg, control_tip_deviation_mm
 from .plan import Floats, Names, Path, ProgramFile
 from .posts.options import PostOptions
 from .posts.program import PROGRAM_NAME, Program, ProgramTool, program_name
-from .program_check import check_program
+from .program_check import CheckResult, check_program
 from .program_report import ProgramReport
 from .stages import Stages
 
@@ -67,13 +68,14 @@ class Made:
     @property
     def troubles(self) -> list[str]:
         """One line for each kind of thing that the machine cannot do, or that is wrong with the program."""
-        findings = self.report.findings
-        found = (
-            [f"{len(findings)} findings of the program's checks, the first: {findings[0]}"]
-            if findings
-            else []
-        )
-        return self.joints.troubles(self.path.position) or found
+        return self.joints.troubles(self.path.position) or told(self.report.findings)
+
+
+def told(findings: Sequence[object]) -> list[str]:
+    """One line for all findings of a program's checks, or none."""
+    if not findings:
+        return []
+    return [f"{len(findings)} findings of the program's checks, the first: {findings[0]}"]
 
 
 def make_program(
@@ -87,20 +89,22 @@ def make_program(
     return Made(path, joints, ProgramFile(FILE_STEM + shop.post.file_ending, text), checked)
 
 
-def move_machine(job: Job, shop: Shop, path: Path) -> MachinePath:
-    """The machine's joints along a path in the set-up frame, with the moves that keep the chord tolerance."""
+def move_machine(job: Job, shop: Shop, path: Path, feed_mm_per_min: Floats | None = None) -> MachinePath:
+    """The machine's joints along a path in the set-up frame, with the moves that keep the chord tolerance; feeds (M,) of
+    the moves: None takes the job's."""
     return machine_path(
         shop.machine,
         path.kind,
         path.tip,
         path.axis,
-        _feeds(job.post, path.kind),
+        feeds(job.post, path.kind) if feed_mm_per_min is None else feed_mm_per_min,
         axis_tolerance_deg=control_deviation_deg(job),
         tip_tolerance_mm=None if job.post.tcp else control_tip_deviation_mm(job),
     )
 
 
-def _feeds(post: PostSpec, kind: Names) -> Floats:
+def feeds(post: PostSpec, kind: Names) -> Floats:
+    """(M,) feeds of moves of these kinds, mm/min."""
     return np.where(np.isin(kind, ("cut", "link")), post.cut_feed_mm_per_min, post.plunge_feed_mm_per_min)
 
 
@@ -126,8 +130,15 @@ def axes_of(machine: Machine, joints: MachinePath) -> Floats:
 
 def check_text(text: str, job: Job, program: Program, path: Path, dialect: str) -> ProgramReport:
     """Read the program's text back as a control would, and compare its poses with the path's."""
+    blocks, checks = read_back(text, job, program.machine, path.tip, path.axis, dialect)
+    return program_report.report(program, blocks, checks)
+
+
+def read_back(
+    text: str, job: Job, machine: Machine, tip: Floats, axis: Floats, dialect: str
+) -> tuple[int, CheckResult]:
+    """How many blocks a text has, and what all checks say of it; tip, axis (N, 3): the poses that it must meet."""
     parsed = dialects.read(text, dialect)
     between = WORD_SLACK * control_tip_deviation_mm(job), WORD_SLACK * control_deviation_deg(job)
     control = Control(job.post.tcp, between_mm=between[0], between_deg=between[1])
-    checks = check_program(parsed, program.machine, path.tip, path.axis, control)
-    return program_report.report(program, len(parsed.blocks), checks)
+    return len(parsed.blocks), check_program(parsed, machine, tip, axis, control)

@@ -1,4 +1,4 @@
-"""Posts: each module of this package that has FILE_ENDING, DIALECT, JOINTS, OPTIONS and write(program) is one, under its
+"""Posts: each module of this package that has FILE_ENDING, DIALECT, JOINTS, OPTIONS and write(first, *more) is one, under its
 own name."""
 
 from __future__ import annotations
@@ -12,7 +12,6 @@ from typing import Any
 from ..errors import InputError
 from . import options
 from .options import PostOptions
-from .program import Program
 
 # Modules that posts share.
 _NOT_POSTS = {"iso6983", "options", "program", "tnc", "writing"}
@@ -25,7 +24,7 @@ class Post:
     dialect: str  # of dialects.READERS: who reads the text back
     joints: bool  # whether it also writes joint positions, for a control without tool-centre-point control
     option_names: frozenset[str]  # those of PostOptions that it reads
-    write: Callable[[Program], str]
+    write: Callable[..., str]  # (first: Program, *more: Program): one program, each part of it with its tool
 
     def options(self, table: Mapping[str, Any]) -> PostOptions:
         """Raises InputError for an option that the post does not read, and for a wrong value."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import chain
+
 from .program import Program
 from .writing import VECTOR_DECIMALS, Style, description, move_table, with_stops
 
@@ -11,12 +13,19 @@ JOINTS = False
 OPTIONS = frozenset({"decimals", "coolant"})
 
 
-def write(program: Program) -> str:
-    lines = [f"PARTNO/{program.name}", f"PPRINT/{description(program)}", "UNITS/MM", "MULTAX/ON"]
+def write(first: Program, *more: Program) -> str:
+    """more: what follows with other tools."""
+    head = [f"PARTNO/{first.name}", f"PPRINT/{description(first)}", "UNITS/MM", "MULTAX/ON"]
+    sections = chain.from_iterable(_section(program) for program in (first, *more))
+    return "\n".join([*head, *sections, "FINI", ""])
+
+
+def _section(program: Program) -> list[str]:
+    """All statements with one tool."""
     spindle = f"SPINDL/RPM,{program.spindle_rpm:.0f},CLW" if program.spindle_on else "SPINDL/OFF"
-    lines += [f"LOADTL/{program.tool.number}", spindle]
+    lines = [f"LOADTL/{program.tool.number}", spindle]
     lines += [] if program.options.coolant == "off" else ["COOLNT/ON"]
-    return "\n".join([*lines, *_moves(program), "COOLNT/OFF", "SPINDL/OFF", "FINI", ""])
+    return [*lines, *_moves(program), "COOLNT/OFF", "SPINDL/OFF"]
 
 
 def _moves(program: Program) -> list[str]:

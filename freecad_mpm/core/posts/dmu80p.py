@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import chain
 
 from ..errors import InputError
 from . import tnc
@@ -17,16 +18,22 @@ OPTIONS = tnc.OPTIONS | {"end_block", "tool_change"}
 WIDE_STEP, NARROW_STEP = 10, 1  # between block numbers
 
 
-def write(program: Program) -> str:
-    """The program as text with CRLF line ends, ASCII. All coordinates must lie over the control's own limits of ±99999 mm.
+def write(first: Program, *more: Program) -> str:
+    """The program as text with CRLF line ends, ASCII; more: what follows with other tools. All coordinates must lie over the control's own limits of ±99999 mm.
 
     Raises InputError for numbers or a length that the control cannot take."""
-    moves = move_lines(program, tnc.style(program, "G00", "G01"))
-    blocks = [*_opening(program), *with_stops(program, moves, "M0", "; {}"), *_closing(program)]
-    head, end = f"%{program.name} G71 *", program.options.end_block
+    sections = chain.from_iterable(_section(program) for program in (first, *more))
+    blocks = [*_blank(first), *sections, "M30"]
+    head, end = f"%{first.name} G71 *", first.options.end_block
     step = _block_step(len(blocks), end)
     numbered = [f"N{step * i} {block} *" for i, block in enumerate(blocks, 1)]
     return "\r\n".join((head, *numbered, f"N{end} {head}", ""))
+
+
+def _section(program: Program) -> list[str]:
+    """All blocks with one tool."""
+    moves = move_lines(program, tnc.style(program, "G00", "G01"))
+    return [*_opening(program), *with_stops(program, moves, "M0", "; {}"), *_closing(program)]
 
 
 def _opening(program: Program) -> list[str]:
@@ -36,7 +43,6 @@ def _opening(program: Program) -> list[str]:
     start: Sequence[float] = (0.0, 0.0) if program.tcp else first_rotary(program)
     above = z + options.preposition_mm if program.tcp else z
     blocks = [
-        *_blank(program),
         *([f"; {description(program)}"] if options.comments else []),
         "M129",
         _retract(program),
@@ -55,7 +61,6 @@ def _closing(program: Program) -> list[str]:
         "M129",
         _retract(program),
         f"G00 {_words(program, rotary_names(program), (0.0, 0.0))} M5",
-        "M30",
     ]
 
 

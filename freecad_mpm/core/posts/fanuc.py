@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import chain
+
 from . import iso6983
 from .iso6983 import axis_words, rotary_zero
 from .program import Program
@@ -14,13 +16,20 @@ OPTIONS = iso6983.OPTIONS | {"program_number"}
 VECTOR = ("I", "J", "K")
 
 
-def write(program: Program, vectors: bool = False) -> str:
-    """Every number has a decimal point: without one the control reads thousandths. No block numbers."""
-    comment = description(program) if program.options.comments else ""
-    head = f"O{program.options.program_number:04d} ({program.name} - {comment})"
+def write(first: Program, *more: Program, vectors: bool = False) -> str:
+    """Every number has a decimal point: without one the control reads thousandths. No block numbers. more: what follows
+    with other tools."""
+    comment = description(first) if first.options.comments else ""
+    head = f"O{first.options.program_number:04d} ({first.name} - {comment})"
+    sections = chain.from_iterable(_section(program, vectors) for program in (first, *more))
+    return "\r\n".join(["%", head, *sections, "M30", "%", ""])
+
+
+def _section(program: Program, vectors: bool) -> list[str]:
+    """All blocks with one tool."""
     moves = iso6983.moves(program, "({})", VECTOR if vectors else None)
     opening = _opening_tcp(program, vectors) if program.tcp else _opening_joints(program)
-    return "\r\n".join(["%", head, *_start(program), *opening, *moves, *_closing(program), "%", ""])
+    return [*_start(program), *opening, *moves, *_closing(program)]
 
 
 def _start(program: Program) -> list[str]:
@@ -55,4 +64,4 @@ def _opening_joints(program: Program) -> list[str]:
 
 def _closing(program: Program) -> list[str]:
     per_minute = [] if program.tcp else [iso6983.PER_MINUTE]
-    return [*per_minute, "G49", "G91 G28 Z0.", f"G90 G0 {rotary_zero(program)}", "M9", "M5", "M30"]
+    return [*per_minute, "G49", "G91 G28 Z0.", f"G90 G0 {rotary_zero(program)}", "M9", "M5"]

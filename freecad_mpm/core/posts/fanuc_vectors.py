@@ -9,5 +9,5 @@ FILE_ENDING, DIALECT, OPTIONS = fanuc.FILE_ENDING, fanuc.DIALECT, fanuc.OPTIONS
 JOINTS = False
 
 
-def write(program: Program) -> str:
-    return fanuc.write(program, vectors=True)
+def write(first: Program, *more: Program) -> str:
+    return fanuc.write(first, *more, vectors=True)

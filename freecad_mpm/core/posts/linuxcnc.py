@@ -3,6 +3,8 @@ inverse-time feed."""
 
 from __future__ import annotations
 
+from itertools import chain
+
 from . import iso6983
 from .iso6983 import axis_words, rotary_zero
 from .program import Program
@@ -14,25 +16,27 @@ JOINTS = True
 OPTIONS = iso6983.OPTIONS | {"path_tolerance_mm"}
 
 
-def write(program: Program) -> str:
+def write(first: Program, *more: Program) -> str:
     """M428 and M429 are the words of LinuxCNC's own five-axis configurations, which a program of joint positions does not
-    need. Datum G54 is the part's."""
+    need. Datum G54 is the part's. more: what follows with other tools."""
+    head = f"({first.name} - {description(first) if first.options.comments else ''})"
+    sections = chain.from_iterable(_section(program) for program in (first, *more))
+    return "\n".join([head, *sections, "M30", ""])
+
+
+def _section(program: Program) -> list[str]:
+    """All blocks with one tool."""
     moves = iso6983.moves(program, "({})", inverse_time=True)
     opening = _opening_tcp(program) if program.tcp else _opening_joints(program)
-    return "\n".join([*_start(program), *opening, *moves, *_closing(program), ""])
+    return [*_start(program), *opening, *moves, *_closing(program)]
 
 
 def _start(program: Program) -> list[str]:
     options, tool = program.options, program.tool.number
     start = rotary_zero(program) if program.tcp else _first_turn(program)
     return [
-        f"({program.name} - {description(program) if options.comments else ''})",
         "G21 G17 G40 G49 G80 G90 G94",
-        *(
-            [f"G64 P{options.path_tolerance_mm:g} Q{options.path_tolerance_mm:g}"]
-            if options.path_tolerance_mm
-            else []
-        ),
+        _path_mode(program),
         *(["M429"] if program.tcp else []),
         _retract(program),
         f"T{tool} M6",
@@ -41,6 +45,12 @@ def _start(program: Program) -> list[str]:
         f"S{program.spindle_rpm:.0f} {program.spindle_word}",
         *([options.coolant_word] if options.coolant_word else []),
     ]
+
+
+def _path_mode(program: Program) -> str:
+    """Exact unless a tolerance is given: left alone the control rounds corners by as much as its speed asks for."""
+    tolerance = program.options.path_tolerance_mm
+    return f"G64 P{tolerance:g} Q{tolerance:g}" if tolerance else "G61"
 
 
 def _opening_tcp(program: Program) -> list[str]:
@@ -69,7 +79,7 @@ def _first_turn(program: Program) -> str:
 
 def _closing(program: Program) -> list[str]:
     off = ["M429"] if program.tcp else []
-    return [iso6983.PER_MINUTE, *off, _retract(program), f"G0 {rotary_zero(program)}", "M9", "M5", "M30"]
+    return [iso6983.PER_MINUTE, *off, _retract(program), f"G0 {rotary_zero(program)}", "M9", "M5"]
 
 
 def _retract(program: Program) -> str:

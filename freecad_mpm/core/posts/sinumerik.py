@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import chain
+
 from . import iso6983
 from .iso6983 import axis_words, rotary_zero
 from .program import Program
@@ -14,14 +16,20 @@ OPTIONS = iso6983.OPTIONS | {"path_tolerance_mm", "rotary_tolerance_deg", "smoot
 VECTOR = ("A3=", "B3=", "C3=")
 
 
-def write(program: Program, vectors: bool = False) -> str:
-    """The datum is G54; a rotary axis that goes over 360 degrees must not be a modulo axis of the control."""
-    comment = description(program) if program.options.comments else ""
+def write(first: Program, *more: Program, vectors: bool = False) -> str:
+    """The datum is G54; a rotary axis that goes over 360 degrees must not be a modulo axis of the control. more: what
+    follows with other tools."""
+    comment = description(first) if first.options.comments else ""
+    sections = chain.from_iterable(_section(program, vectors) for program in (first, *more))
+    numbered = [f"N{10 * i} {block}" for i, block in enumerate(chain(sections, ["M30"]), 1)]
+    return "\n".join([f"; {first.name} - {comment}", *numbered, ""])
+
+
+def _section(program: Program, vectors: bool) -> list[str]:
+    """All blocks with one tool."""
     moves = iso6983.moves(program, "; {}", VECTOR if vectors else None)
     opening = _opening_tcp(program, vectors) if program.tcp else _opening_joints(program)
-    blocks = [*_start(program), *opening, *moves, *_closing(program)]
-    numbered = [f"N{10 * i} {block}" for i, block in enumerate(blocks, 1)]
-    return "\n".join([f"; {program.name} - {comment}", *numbered, ""])
+    return [*_start(program), *opening, *moves, *_closing(program)]
 
 
 def _start(program: Program) -> list[str]:
@@ -65,7 +73,7 @@ def _opening_joints(program: Program) -> list[str]:
 
 def _closing(program: Program) -> list[str]:
     off = "TRAFOOF" if program.tcp else iso6983.PER_MINUTE
-    return [off, _retract(program), f"G0 {rotary_zero(program)}", "M9", "M5", "M30"]
+    return [off, _retract(program), f"G0 {rotary_zero(program)}", "M9", "M5"]
 
 
 def _retract(program: Program) -> str:

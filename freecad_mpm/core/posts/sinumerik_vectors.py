@@ -9,5 +9,5 @@ FILE_ENDING, DIALECT, OPTIONS = sinumerik.FILE_ENDING, sinumerik.DIALECT, sinume
 JOINTS = False
 
 
-def write(program: Program) -> str:
-    return sinumerik.write(program, vectors=True)
+def write(first: Program, *more: Program) -> str:
+    return sinumerik.write(first, *more, vectors=True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import chain
 
 from . import tnc
 from .program import Floats, Program
@@ -24,14 +25,19 @@ class Form:
     vectors: bool = False
 
 
-def write(program: Program, form: Form = Form()) -> str:
-    """The program as text with CRLF line ends, ASCII, its blocks numbered from 0."""
+def write(first: Program, *more: Program, form: Form = Form()) -> str:
+    """The program as text with CRLF line ends, ASCII, its blocks numbered from 0; more: what follows with other tools."""
+    name = first.name
+    sections = chain.from_iterable(_section(program, form) for program in (first, *more))
+    blocks = [f"BEGIN PGM {name} MM", *_blank(first), *sections, "M30", f"END PGM {name} MM"]
+    return "\r\n".join([*(f"{i} {block}" for i, block in enumerate(blocks)), ""])
+
+
+def _section(program: Program, form: Form) -> list[str]:
+    """All blocks with one tool."""
     style = tnc.style(program, *(("LN", "LN") if form.vectors else ("L", "L")), " FMAX", form.vectors)
     moves = with_stops(program, move_lines(program, style), "M0", "; {}")
-    name = program.name
-    blocks = [f"BEGIN PGM {name} MM", *_opening(program, form), *moves]
-    blocks += [*_closing(program, form), f"END PGM {name} MM"]
-    return "\r\n".join([*(f"{i} {block}" for i, block in enumerate(blocks)), ""])
+    return [*_opening(program, form), *moves, *_closing(program, form)]
 
 
 def _opening(program: Program, form: Form) -> list[str]:
@@ -40,7 +46,6 @@ def _opening(program: Program, form: Form) -> list[str]:
     start: Sequence[float] = (0.0, 0.0) if program.tcp else first_rotary(program)
     above = z + options.preposition_mm if program.tcp else z
     blocks = [
-        *_blank(program),
         *([f"; {description(program)}"] if options.comments else []),
         form.tcp_off,
         _retract(program),
@@ -67,7 +72,6 @@ def _closing(program: Program, form: Form) -> list[str]:
         form.tcp_off,
         _retract(program),
         f"L {_words(program, rotary_names(program), (0.0, 0.0))} R0 FMAX M5",
-        "M30",
     ]
 
 

@@ -10,5 +10,5 @@ JOINTS = False
 FORM = tnc_klartext.Form(vectors=True)
 
 
-def write(program: Program) -> str:
-    return tnc_klartext.write(program, FORM)
+def write(first: Program, *more: Program) -> str:
+    return tnc_klartext.write(first, *more, form=FORM)
