@@ -36,7 +36,8 @@ class Walk:
         )  # of the last pose of the list: a later block may still meet it better
 
     def leave(self) -> None:
-        """The program leaves the list, for another tool: at rapid rate it may go anywhere until it meets the next pose."""
+        """The program leaves the list, for another tool: at rapid rate it may go anywhere until it meets the next
+        pose."""
         self._away = True
 
     @property

@@ -143,8 +143,8 @@ def machine_path(
 def _with_turns_at_the_top(
     machine: Machine, path: MachinePath, keeps: Flags, place: dict[str, Any]
 ) -> MachinePath:
-    """Before each rapid whose joints would swing the tip off its way: up along Z, the turn, and across, so that the rapid
-    itself only goes down."""
+    """Before each rapid whose joints would swing the tip off its way: up along Z, the turn, and across, so that the
+    rapid itself only goes down."""
     turns = np.flatnonzero(~keeps & (path.kind == "rapid"))
     if not len(turns):
         return path

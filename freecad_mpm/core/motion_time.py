@@ -1,8 +1,8 @@
 """How long a machine takes for its moves, with the feeds, and the velocities and accelerations of its axes.
 
-Feed moves are driven as a control with look-ahead does: as fast as feed and axes allow, through a corner no faster than the
-axes can change their velocities within half of the two blocks, and never faster than they can slow down for what comes.
-Jerk and the control's own smoothing are not known to this."""
+Feed moves are driven as a control with look-ahead does: as fast as feed and axes allow, through a corner no faster
+than the axes can change their velocities within half of the two blocks, and never faster than they can slow down for
+what comes. Jerk and the control's own smoothing are not known to this."""
 
 from __future__ import annotations
 
@@ -57,15 +57,15 @@ def _rest_to_rest(way: Floats, velocity: Floats, acceleration: Floats) -> Floats
 
 def _runs(at_feed: NDArray[np.bool_]) -> Iterator[tuple[int, int]]:
     """First and behind the last index of each run of true values."""
-    edges = np.flatnonzero(np.diff(np.concatenate(([False], at_feed, [False])).astype(np.int8)))
+    edges = np.flatnonzero(np.diff(np.pad(at_feed, 1).astype(np.int8)))
     return zip(edges[::2].tolist(), edges[1::2].tolist())
 
 
 def _run_seconds(steady: Floats, way: Floats, acceleration: Floats) -> Floats:
     """Seconds of the blocks (N,) of one run from rest to rest, which would take `steady` seconds at full rate.
 
-    The rate r, at most 1, is how fast the run is driven of its full rate; with u the time at full rate an axis of velocity w
-    accelerates by w r dr/du, so that r² grows with u by at most 2 a / w."""
+    The rate r, at most 1, is how fast the run is driven of its full rate; with u the time at full rate an axis of
+    velocity w accelerates by w r dr/du, so that r² grows with u by at most 2 a / w."""
     moving = np.flatnonzero(steady > NO_TIME_S)
     seconds = np.zeros(len(steady))
     if len(moving):
@@ -78,7 +78,8 @@ def _run_seconds(steady: Floats, way: Floats, acceleration: Floats) -> Floats:
 
 
 def _corner_rates(times: Floats, velocity: Floats, acceleration: Floats) -> Floats:
-    """(N + 1,) greatest rates at the ends of the blocks: at rest outside, else as the axes' change of velocity allows."""
+    """(N + 1,) greatest rates at the ends of the blocks: at rest outside, else as the axes' change of velocity
+    allows."""
     change = np.abs(np.diff(velocity, axis=0))
     with np.errstate(divide="ignore"):
         allowed = (acceleration * 0.5 * (times[:-1] + times[1:])[:, None] / change).min(axis=1)

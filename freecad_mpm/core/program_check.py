@@ -11,7 +11,7 @@ from . import kinematics
 from .cl_walk import Walk
 from .control import Control
 from .machines import Machine
-from .program_reader import AXES, Block, Motion, ParsedProgram
+from .program_reader import Block, Motion, ParsedProgram
 
 Floats = NDArray[np.float64]
 
@@ -194,8 +194,8 @@ def check_straightness(
     program: ParsedProgram, machine: Machine, control: Control = Control()
 ) -> Straightness:
     """Between the ends of a feed move the tip keeps its line and the axis its great circle within the control's
-    allowances, looked at at three places; a control that holds the tip is taken at its word. Directions that the text gives
-    as vectors are turned by the control on the great circle."""
+    allowances, looked at at three places; a control that holds the tip is taken at its word. Directions that the text
+    gives as vectors are turned by the control on the great circle."""
     motion = program.motion()
     poses = _poses(motion, machine, control)
     end = 1 + np.flatnonzero((np.diff(poses.row) == 1) & ~motion.rapid[poses.row[1:]])
@@ -262,7 +262,8 @@ def _limit_findings(
 def _readings(
     motion: Motion, machine: Machine, angles: Floats, control: Control
 ) -> tuple[NDArray[np.int64], Floats]:
-    """Readings of the linear axes in all moves: (S,) row of motion, (S, 3). Joints run evenly: their ends tell it all."""
+    """Readings of the linear axes in all moves: (S,) row of motion, (S, 3). Joints run evenly: their ends tell it
+    all."""
     origin, length = control.setup_of(machine)
     if not control.tcp:
         return np.arange(len(angles)), motion.linear + kinematics.datum_mm(machine, origin, length)
@@ -292,8 +293,8 @@ def check_continuity(
     max_rotary_step_deg: float | None = None,
     control: Control = Control(),
 ) -> list[Finding]:
-    """Rotary axes turn evenly: no jump through half a turn in a feed move, nor in a rapid of an axis without limits; no step
-    over the limit (None: the machine's) and no change of the rotary solution in a feed move."""
+    """Rotary axes turn evenly: no jump through half a turn in a feed move, nor in a rapid of an axis without limits;
+    no step over the limit (None: the machine's) and no change of the rotary solution in a feed move."""
     motion = program.motion()
     angles = _angles(motion, machine)
     step_limit = (

@@ -1,6 +1,6 @@
-"""The proof program: what an operator runs before the first part, to see that the machine file has the right axes, senses
-and order. High over the part, without spindle and coolant, the tool is held at one place and tilted to known directions;
-after each the machine waits, and a comment tells what must be seen."""
+"""The proof program: what an operator runs before the first part, to see that the machine file has the right axes,
+senses and order. High over the part, without spindle and coolant, the tool is held at one place and tilted to known
+directions; after each the machine waits, and a comment tells what must be seen."""
 
 from __future__ import annotations
 

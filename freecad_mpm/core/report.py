@@ -69,7 +69,8 @@ def warnings(job: Job, machine: Machine, positions: Positions, path: Path, guara
             ", …" if len(turned) > LISTED_POSITIONS else ""
         )
         found.append(
-            f"{len(turned)} cuts are interrupted for a rotary axis to rewind on the safe plane, before positions {places}"
+            f"{len(turned)} cuts are interrupted for a rotary axis to rewind on the safe plane, "
+            f"before positions {places}"
         )
     gaps = not_cut(positions, path)
     if gaps:

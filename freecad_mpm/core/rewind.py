@@ -1,5 +1,5 @@
-"""Fitting a path to the machine: where a rotary axis must rewind in a cut, the tool retracts, turns clear of the part, and
-goes on from the place where it left."""
+"""Fitting a path to the machine: where a rotary axis must rewind in a cut, the tool retracts, turns clear of the
+part, and goes on from the place where it left."""
 
 from __future__ import annotations
 
@@ -32,8 +32,8 @@ NO_POSITION = -1
 def fit_to_machine(
     job: Job, shop: Shop, scene: Scene, path: Path, stages: Stages
 ) -> tuple[Path, MachinePath]:
-    """The machine's joints along the path, all in the set-up frame, and the path with the retracts that they need. What the
-    machine cannot do all the same is a status of its moves."""
+    """The machine's joints along the path, all in the set-up frame, and the path with the retracts that they need.
+    What the machine cannot do all the same is a status of its moves."""
     joints = stages.run("machine", move_machine, job, shop, path)
     for _ in range(ROUNDS):
         forced = forced_cuts(path, joints)
@@ -76,8 +76,8 @@ def seam(machine: Machine, path: Path, joints: MachinePath, move: int) -> float:
 def interrupted(
     job: Job, scene: Scene, path: Path, cuts: Integers, seams: list[float], stages: Stages
 ) -> Path:
-    """The path with each of these cuts interrupted a fraction of it from its start, there a way up to the safe plane and down
-    again. The rapid down is where the axes turn: at its upper end, with the tip held."""
+    """The path with each of these cuts interrupted a fraction of it from its start, there a way up to the safe plane
+    and down again. The rapid down is where the axes turn: at its upper end, with the tip held."""
     with blame(f"{job.source}: [{job.link.table}]"):
         ways = [
             stages.run_native("path", _interruption, job, scene, path, int(move), where)

@@ -37,8 +37,8 @@ class Shop:
 
 
 def find_shop(job: Job) -> Shop:
-    """Raises InputError for a machine or post that there is not, for what the post does not write, and for a program name
-    that controls do not take."""
+    """Raises InputError for a machine or post that there is not, for what the post does not write, and for a program
+    name that controls do not take."""
     with blame(f"{job.source}: [{job.machine.table}] name:"):
         machine = machines.load(job.machine.name)
     with blame(f"{job.source}: [{job.post.table}] name:"):

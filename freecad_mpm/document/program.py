@@ -49,8 +49,8 @@ def default_name(op: Any) -> str:
 
 
 def program_text(ops: Sequence[Any], post: str, arguments: str = "") -> ProgramText:
-    """The program of operations of one job, one after the other: ours, and CAM's own three-axis ones between them. Machine
-    and set-up are those of the first of ours; arguments: of the post, as post_arguments.py has them.
+    """The program of operations of one job, one after the other: ours, and CAM's own three-axis ones between them.
+    Machine and set-up are those of the first of ours; arguments: of the post, as post_arguments.py has them.
 
     It is read back and compared with the path before it is returned; what differs is among the warnings."""
     ours = [op for op in ops if is_operation(op)]
@@ -94,7 +94,8 @@ def _job(op: Any, post: str, arguments: PostArguments) -> Job:
 
 
 def _groups(ops: Sequence[Any]) -> list[list[Any]]:
-    """Operations that follow each other without a retract to the machine's own height: ours with one tool and coolant."""
+    """Operations that follow each other without a retract to the machine's own height: ours with one tool and
+    coolant."""
     groups: list[list[Any]] = []
     for op in ops:
         before = groups[-1][0] if groups else None

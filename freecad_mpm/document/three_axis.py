@@ -18,7 +18,8 @@ UPRIGHT = (0.0, 0.0, 1.0)
 
 # What has no meaning for the moves: planes, units, modes, datums, tool calls and spindle, which the post writes itself.
 _IGNORED = frozenset(
-    "G17 G20 G21 G40 G43 G49 G54 G55 G56 G57 G58 G59 G80 G90 G94 G98 G99 M0 M1 M3 M03 M4 M04 M5 M05 M6 M06 M7 M8 M9".split()
+    "G17 G20 G21 G40 G43 G49 G54 G55 G56 G57 G58 G59 G80 G90 G94 G98 G99 "
+    "M0 M1 M3 M03 M4 M04 M5 M05 M6 M06 M7 M8 M9".split()
 )
 
 
@@ -134,7 +135,8 @@ class _Run:
 def _chords(
     start: Sequence[float], end: Sequence[float], i: float, j: float, clockwise: bool
 ) -> Iterator[list[float]]:
-    """Ends of chords along an arc or helix about start + (i, j), the last of them `end`; start and end alike: a full turn."""
+    """Ends of chords along an arc or helix about start + (i, j), the last of them `end`; start and end alike: a full
+    turn."""
     centre = start[0] + i, start[1] + j
     radius = math.hypot(i, j)
     first = math.atan2(-j, -i)

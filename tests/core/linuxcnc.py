@@ -149,8 +149,8 @@ def pose_of(xyz, abc):
 
 
 def tip_and_axis(driver, machine, joints):
-    """By the module's forward kinematics. Its pose holds the tool's length in Z; the axis is what a move along the spindle
-    does."""
+    """By the module's forward kinematics. Its pose holds the tool's length in Z; the axis is what a move along the
+    spindle does."""
     module = MODULE_OF[machine.name]
     further = joints.copy()
     further[:, module.along] += module.sign * SPINDLE_MM

@@ -1,8 +1,9 @@
-"""Runs a program through LinuxCNC's interpreter (its Python module gcode) and keeps the canonical moves in full precision.
+"""Runs a program through LinuxCNC's interpreter (its Python module gcode) and keeps the canonical moves in full
+precision.
 
-linuxcnc_canon.py PROGRAM TOOL_TABLE OUT.npy: a row a move of X Y Z in mm, A B C in degrees, 1 for a traverse, 1 after M428.
-It needs INI_FILE_NAME and a HOME that may be written to; it is a program of its own because the module ends the process
-when it does not like its surroundings."""
+linuxcnc_canon.py PROGRAM TOOL_TABLE OUT.npy: a row a move of X Y Z in mm, A B C in degrees, 1 for a traverse, 1 after
+M428. It needs INI_FILE_NAME and a HOME that may be written to; it is a program of its own because the module ends the
+process when it does not like its surroundings."""
 
 import ctypes
 import re

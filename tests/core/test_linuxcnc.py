@@ -131,7 +131,8 @@ def long_program(machine, tcp=True):
 
 
 def at_their_joints(driver, machine, program, folder, tcp):
-    """Text -> their interpreter -> their joints: by their inverse, or as programmed. Without the opening and the closing."""
+    """Text -> their interpreter -> their joints: by their inverse, or as programmed. Without the opening and the
+    closing."""
     moves, _, under_tcp = linuxcnc.canonical_moves(folder, text_of(program))
     if tcp:
         poses = moves[under_tcp][-len(program.moves) :]

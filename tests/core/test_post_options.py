@@ -1,4 +1,5 @@
-"""What a post may be asked for: each option shows in the text, the text still passes its reader, and nonsense is refused."""
+"""What a post may be asked for: each option shows in the text, the text still passes its reader, and nonsense is
+refused."""
 
 import re
 from dataclasses import replace

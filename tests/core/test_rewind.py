@@ -1,4 +1,5 @@
-"""A rotary axis that comes to its end in the middle of a pass: the tool retracts, turns clear of the part, and goes on."""
+"""A rotary axis that comes to its end in the middle of a pass: the tool retracts, turns clear of the part, and goes
+on."""
 
 import re
 

@@ -1,5 +1,5 @@
-"""Posts: each module of this package that has FILE_ENDING, DIALECT, JOINTS, OPTIONS and write(first, *more) is one, under its
-own name."""
+"""Posts: each module of this package that has FILE_ENDING, DIALECT, JOINTS, OPTIONS and write(first, *more) is one,
+under its own name."""
 
 from __future__ import annotations
 

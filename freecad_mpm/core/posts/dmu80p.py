@@ -19,7 +19,8 @@ WIDE_STEP, NARROW_STEP = 10, 1  # between block numbers
 
 
 def write(first: Program, *more: Program) -> str:
-    """The program as text with CRLF line ends, ASCII; more: what follows with other tools. All coordinates must lie over the control's own limits of ±99999 mm.
+    """The program as text with CRLF line ends, ASCII; more: what follows with other tools. All coordinates must lie
+    over the control's own limits of ±99999 mm.
 
     Raises InputError for numbers or a length that the control cannot take."""
     sections = chain.from_iterable(_section(program) for program in (first, *more))

@@ -16,8 +16,8 @@ PER_MINUTE = "G94"
 def moves(
     program: Program, comment: str, vector: tuple[str, str, str] | None = None, inverse_time: bool = False
 ) -> list[str]:
-    """One block a move; `vector`: names of the components of the tool's direction. Without TCP the feed is always inverse
-    time, as the tip's way is not the axes'."""
+    """One block a move; `vector`: names of the components of the tool's direction. Without TCP the feed is always
+    inverse time, as the tip's way is not the axes'."""
     return with_stops(program, move_lines(program, _style(program, vector, inverse_time)), "M0", comment)
 
 

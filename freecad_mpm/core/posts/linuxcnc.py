@@ -17,8 +17,8 @@ OPTIONS = iso6983.OPTIONS | {"path_tolerance_mm"}
 
 
 def write(first: Program, *more: Program) -> str:
-    """M428 and M429 are the words of LinuxCNC's own five-axis configurations, which a program of joint positions does not
-    need. Datum G54 is the part's. more: what follows with other tools."""
+    """M428 and M429 are the words of LinuxCNC's own five-axis configurations, which a program of joint positions does
+    not need. Datum G54 is the part's. more: what follows with other tools."""
     head = f"({first.name} - {description(first) if first.options.comments else ''})"
     sections = chain.from_iterable(_section(program) for program in (first, *more))
     return "\n".join([head, *sections, "M30", ""])

@@ -1,4 +1,5 @@
-"""Siemens 840D: TRAORI with rotary angles (ORIAXES) or the tool's direction as a vector (ORIVECT), or joint positions."""
+"""Siemens 840D: TRAORI with rotary angles (ORIAXES) or the tool's direction as a vector (ORIVECT), or joint
+positions."""
 
 from __future__ import annotations
 

@@ -26,7 +26,8 @@ class Form:
 
 
 def write(first: Program, *more: Program, form: Form = Form()) -> str:
-    """The program as text with CRLF line ends, ASCII, its blocks numbered from 0; more: what follows with other tools."""
+    """The program as text with CRLF line ends, ASCII, its blocks numbered from 0; more: what follows with other
+    tools."""
     name = first.name
     sections = chain.from_iterable(_section(program, form) for program in (first, *more))
     blocks = [f"BEGIN PGM {name} MM", *_blank(first), *sections, "M30", f"END PGM {name} MM"]
