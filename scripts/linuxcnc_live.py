@@ -1,14 +1,15 @@
 #!/usr/bin/python3
-"""Runs a program on LinuxCNC's own controller, simulated and without a window, and compares where the tool went with the text.
+"""Runs a program on LinuxCNC's own controller, simulated and without a window, and compares where the tool went with
+the text.
 
 On a machine with LinuxCNC installed, as a user who is not root (docs/posts.md, "On the live controller"):
 
     scripts/linuxcnc_live.py run FOLDER PROGRAM.ngc
     scripts/linuxcnc_live.py compare FOLDER PROGRAM.ngc
 
-`run` makes a configuration of the tilting table xyzac-trt-kins in FOLDER, as machine file linuxcnc_xyzac has it, runs the
-program, and leaves samples.txt: what the five joints are told each millisecond, and the program's line. `compare` needs
-this add-on, built."""
+`run` makes a configuration of the tilting table xyzac-trt-kins in FOLDER, as machine file linuxcnc_xyzac has it, runs
+the program, and leaves samples.txt: what the five joints are told each millisecond, and the program's line. `compare`
+needs this add-on, built."""
 
 import subprocess
 import sys
@@ -157,7 +158,8 @@ def compare(folder, program):
 
 
 def _off(tips, ends, row, tip, axis, kinematics):
-    """(S, 2) distance of the samples' tips from the line of a block, and angle of their axes from its great circle there."""
+    """(S, 2) distance of the samples' tips from the line of a block, and angle of their axes from its great circle
+    there."""
     import numpy as np
 
     start, way = tips[row - 1], tips[row] - tips[row - 1]
