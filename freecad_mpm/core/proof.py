@@ -32,7 +32,7 @@ def directions() -> tuple[Floats, list[str]]:
 
 
 def _words(tilt_deg: float, azimuth_deg: float, axis: Floats) -> str:
-    x, y, z = axis + 0.0
+    x, y, z = np.round(axis, 4) + 0.0  # no minus zero
     return f"TILT {tilt_deg:g} TOWARDS AZIMUTH {azimuth_deg:g} - TOOL POINTS TO {x:.4f} {y:.4f} {z:.4f}"
 
 

@@ -6,7 +6,7 @@ import re
 import numpy as np
 import pytest
 
-from freecad_mpm.core import job, planning
+from freecad_mpm.core import cli, job, planning
 from freecad_mpm.core.resources import MACHINES
 from freecad_mpm.core.rewind import rewinds
 
@@ -41,10 +41,14 @@ def limited(tmp_path):
     return path
 
 
-def plan_on(machine, thesis_part, tmp_path, post="dmu80p", tcp="true"):
+def job_file(machine, thesis_part, tmp_path, post="dmu80p", tcp="true"):
     path = tmp_path / "job.toml"
     path.write_text(JOB.format(part=thesis_part("convex"), machine=machine, post=post, tcp=tcp))
-    return planning.plan(job.load(path))
+    return path
+
+
+def plan_on(*arguments):
+    return planning.plan(job.load(job_file(*arguments)))
 
 
 @pytest.mark.parametrize("post, tcp", [("dmu80p", "true"), ("dmu80p", "false"), ("linuxcnc", "true")])
@@ -115,3 +119,22 @@ def test_a_rotary_axis_that_cannot_help_is_told_with_its_position(limited, thesi
         r"a rotary axis leaves its limits: \d+ moves, the first in move \d+ at position \d+",
         plan.report["verdict"]["line"],
     )
+
+
+def test_the_cl_file_and_the_program_of_such_a_plan_pass_their_checks(limited, thesis_part, tmp_path):
+    job_file(limited, thesis_part, tmp_path)
+    assert cli.main(["plan", str(tmp_path / "job.toml"), "--out", str(tmp_path)]) == 0
+    assert cli.main(["verify", str(tmp_path / "job.toml"), str(tmp_path / "cl.csv")]) == 0
+    program, against = str(tmp_path / "program.I"), str(tmp_path / "cl.csv")
+    assert cli.main(["check", program, "--machine", str(limited), "--against", against]) == 0
+    lower_the_place_between(tmp_path / "cl.csv", 0.02)  # more than the 0.01 mm that a cut may be deep
+    assert cli.main(["verify", str(tmp_path / "job.toml"), str(tmp_path / "cl.csv")]) == 1
+
+
+def lower_the_place_between(path, depth_mm):
+    """In a CL file, of the first cut that ends between positions."""
+    lines = path.read_text().split("\n")
+    row = next(i for i, line in enumerate(lines) if line.split(",")[1:3] == ["-1", "cut"])
+    cells, z = lines[row].split(","), lines[0].split(",").index("tip_z")
+    cells[z] = f"{float(cells[z]) - depth_mm:.9f}"
+    path.write_text("\n".join([*lines[:row], ",".join(cells), *lines[row + 1 :]]))
