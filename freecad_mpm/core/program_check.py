@@ -11,7 +11,11 @@ from . import kinematics
 from .cl_walk import Walk
 from .control import Control
 from .machines import Machine
-from .program_reader import Block, Motion, ParsedProgram
+from .program_finding import Finding, finding_at
+from .program_poses import angles_of, posed, poses_of
+from .program_reader import Motion, ParsedProgram
+from .program_state import check_state
+from .straightness import check_straightness
 
 Floats = NDArray[np.float64]
 
@@ -22,23 +26,8 @@ WORD_ROUNDING = 1e-4
 HALF_TURN_DEG = 180.0
 # Between two samples of a move neither rotary axis turns more than this.
 SAMPLE_TURN_DEG = 1.0
-# Fractions of a feed move at which the tool is compared with the way it was meant to take.
-BETWEEN = (0.25, 0.5, 0.75)
 # |side| of a rotary solution under which the pose counts as the place where both meet: about 1e-3 degrees from it.
 SIDE_EPSILON = 2e-5
-
-
-@dataclass(frozen=True)
-class Finding:
-    """One thing that is wrong: which check found it, where, and what."""
-
-    check: str
-    block: int | None
-    text: str
-    message: str
-
-    def __str__(self) -> str:
-        return ": ".join(filter(None, (self.check, self.text, self.message)))
 
 
 @dataclass(frozen=True)
@@ -55,76 +44,6 @@ def check_grammar(program: ParsedProgram) -> list[Finding]:
     return [Finding("grammar", number, text, message) for number, text, message in program.grammar]
 
 
-def check_state(program: ParsedProgram, control: Control = Control()) -> list[Finding]:
-    """The machine is in the right state for every block: spindle, feed, tool-centre-point control, absolute words. In a
-    program of joint positions that control must stay off."""
-    findings = [
-        Finding("state", block.number, block.text, message)
-        for before, block in zip([None, *program.blocks], program.blocks)
-        for message in _state_faults(before, block, control)
-    ]
-    if program.blocks and program.blocks[-1].tcp and 129 not in program.blocks[-1].m:
-        findings.append(
-            Finding("state", program.blocks[-1].number, "", "M128 is on at the end: M129 is missing")
-        )
-    return findings
-
-
-def _state_faults(before: Block | None, block: Block, control: Control) -> list[str]:
-    faults = []
-    if "T" in block.words and block.tcp:
-        faults.append("a tool call while M128 is on")
-    if block.machine_datum and block.tcp:
-        faults.append("M91 or M92 while M128 is on")
-    if block.tcp and not control.tcp:
-        faults.append("M128 is on in a program of joint positions")
-    return faults + (_move_faults(before, block, control) if block.moves else [])
-
-
-def _move_faults(before: Block | None, block: Block, control: Control) -> list[str]:
-    faults = []
-    if block.absolute is not True:
-        faults.append("a move that is not absolute: G90 must be on")
-    if not block.compensation_off:
-        faults.append("a move before G40: radius compensation may be on")
-    if block.rapid is None:
-        faults.append("a move without G00 or G01")
-    turns = any(letter in block.words for letter in "ABC") or _new_vector(before, block)
-    if block.rapid is False:
-        faults += _feed_faults(block, control, turns)
-    elif turns and before is not None and _travels(before, block) and _turns(before, block):
-        faults.append("a rapid that turns and travels at once: its way is not straight")
-    return faults
-
-
-def _new_vector(before: Block | None, block: Block) -> bool:
-    # The first vector of a program stands over the first pose, where the tip is held.
-    return block.axis is not None and before is not None and before.axis not in (None, block.axis)
-
-
-def _feed_faults(block: Block, control: Control, turns: bool) -> list[str]:
-    faults = []
-    if control.spindle and not block.spindle:
-        faults.append("a feed move with the spindle off")
-    if not block.feed > 0:
-        faults.append("a feed move before any F")
-    if turns and control.tcp and not block.tcp:
-        faults.append("rotary axes in a feed move without M128")
-    return faults
-
-
-def _turns(before: Block, block: Block) -> bool:
-    return _new_vector(before, block) or before.position[3:] != block.position[3:]
-
-
-def _travels(before: Block, block: Block) -> bool:
-    if not any(letter in block.words for letter in "XYZ"):
-        return False
-    if block.tcp:
-        return any(a != b for a, b in zip(before.position[:3], block.position[:3]))
-    return any(a != b for a, b in zip(before.linear, block.linear))
-
-
 def check_round_trip(
     program: ParsedProgram,
     machine: Machine,
@@ -137,7 +56,7 @@ def check_round_trip(
     """Every pose of the CL list (tip (N, 3), axis (N, 3), the program's frame) is met in its order, under M128 or by the
     joints, and blocks between two of them stay on the straight line and the great circle that join them."""
     motion = program.motion()
-    poses = _poses(motion, machine, control)
+    poses = poses_of(motion, machine, control)
     walk = Walk(tip, axis, tip_tolerance_mm, axis_tolerance_deg, may_rise=not control.tcp)
     findings = []
     rapid = motion.rapid[poses.row].tolist()
@@ -152,83 +71,17 @@ def check_round_trip(
             last_call = call
         message = walk.step(at, direction, fast)
         if message:
-            findings.append(_finding("round trip", program, motion, row, message))
+            findings.append(finding_at("round trip", program, motion, row, message))
     if walk.next < len(tip):
         message = f"pose {walk.next} of {len(tip)} in the CL list is not met"
         findings.append(Finding("round trip", None, "", message))
     return RoundTrip(findings, walk.tip_error_mm, walk.axis_error_deg)
 
 
-@dataclass(frozen=True)
-class _Poses:
-    """Where the tool is at the end of those moves of which that is known."""
-
-    row: NDArray[np.int64]  # (P,) of the motion
-    tip: Floats  # (P, 3); NaN: not known
-    axis: Floats  # (P, 3)
-    angles: Floats  # (P, 2)
-    linear: Floats  # (P, 3) readings; NaN: not known
-
-
-def _poses(motion: Motion, machine: Machine, control: Control) -> _Poses:
-    angles = _angles(motion, machine)
-    row = np.flatnonzero(_posed(motion, machine, control))
-    by_angles = kinematics.tool_axes(machine, angles[row])
-    axis = np.where(np.isnan(motion.axis[row]), by_angles, motion.axis[row])
-    origin, length = control.setup_of(machine)
-    linear = motion.linear[row] + kinematics.datum_mm(machine, origin, length)
-    tip = motion.tip[row] if control.tcp else kinematics.tips(machine, linear, angles[row], origin, length)
-    return _Poses(row, tip, axis, angles[row], linear)
-
-
-@dataclass(frozen=True)
-class Straightness:
-    """How far the tool leaves the way between the ends of the feed moves while the rotary axes run evenly."""
-
-    findings: list[Finding]
-    tip_mm: float
-    axis_deg: float
-
-
-def check_straightness(
-    program: ParsedProgram, machine: Machine, control: Control = Control()
-) -> Straightness:
-    """Between the ends of a feed move the tip keeps its line and the axis its great circle within the control's
-    allowances, looked at at three places; a control that holds the tip is taken at its word. Directions that the text
-    gives as vectors are turned by the control on the great circle."""
-    motion = program.motion()
-    poses = _poses(motion, machine, control)
-    end = 1 + np.flatnonzero((np.diff(poses.row) == 1) & ~motion.rapid[poses.row[1:]])
-    end = end[np.isnan(motion.axis[poses.row[end]]).all(axis=1)]
-    tip_off, axis_off = np.zeros(len(end)), np.zeros(len(end))
-    for s in BETWEEN:
-        tip, axis = _between(poses, machine, control, end, s)
-        meant = poses.tip[end - 1] + s * (poses.tip[end] - poses.tip[end - 1])
-        if not control.tcp:
-            tip_off = np.maximum(tip_off, np.linalg.norm(tip - meant, axis=1))
-        circle = kinematics.great_circle(poses.axis[end - 1], poses.axis[end], s)
-        axis_off = np.maximum(axis_off, kinematics.angles_between_deg(axis, circle))
-    findings = []
-    for k in np.flatnonzero((tip_off > control.between_mm) | (axis_off > control.between_deg)).tolist():
-        message = f"leaves its way: the tip by {tip_off[k]:.4f} mm, the axis by {axis_off[k]:.4f} degrees"
-        findings.append(_finding("straightness", program, motion, int(poses.row[end[k]]), message))
-    return Straightness(findings, float(tip_off.max(initial=0.0)), float(axis_off.max(initial=0.0)))
-
-
-def _between(
-    poses: _Poses, machine: Machine, control: Control, end: NDArray[np.int64], s: float
-) -> tuple[Floats, Floats]:
-    """Tip and axis a fraction s of the way in the moves that end there, all five axes running evenly."""
-    origin, length = control.setup_of(machine)
-    angles = poses.angles[end - 1] + s * (poses.angles[end] - poses.angles[end - 1])
-    linear = poses.linear[end - 1] + s * (poses.linear[end] - poses.linear[end - 1])
-    return kinematics.tips(machine, linear, angles, origin, length), kinematics.tool_axes(machine, angles)
-
-
 def check_limits(program: ParsedProgram, machine: Machine, control: Control = Control()) -> list[Finding]:
     """All five axes stay within their limits, along whole moves: under M128 the linear axes follow the rotary ones."""
     motion = program.motion()
-    angles = _angles(motion, machine)
+    angles = angles_of(motion, machine)
     findings = []
     for k, rotary in enumerate(machine.rotary_axes):
         limits = (rotary.name, rotary.min_limit_deg, rotary.max_limit_deg, "degrees")
@@ -255,7 +108,7 @@ def _limit_findings(
         first, last = np.searchsorted(rows, (row, row + 1))
         worst = readings[first + np.nanargmax(over[first:last])]
         message = f"{name} goes to {worst:.4f} {unit}, its limits are {low:g} and {high:g}"
-        findings.append(_finding("limits", program, motion, row, message))
+        findings.append(finding_at("limits", program, motion, row, message))
     return findings
 
 
@@ -296,12 +149,12 @@ def check_continuity(
     """Rotary axes turn evenly: no jump through half a turn in a feed move, nor in a rapid of an axis without limits;
     no step over the limit (None: the machine's) and no change of the rotary solution in a feed move."""
     motion = program.motion()
-    angles = _angles(motion, machine)
+    angles = angles_of(motion, machine)
     step_limit = (
         machine.kinematics.max_rotary_step_deg if max_rotary_step_deg is None else max_rotary_step_deg
     )
-    posed = _posed(motion, machine, control)
-    together = posed[1:] & posed[:-1]
+    known = posed(motion, machine, control)
+    together = known[1:] & known[:-1]
     cuts = together & ~motion.rapid[1:]
     steps = np.abs(np.diff(angles, axis=0))
     findings = []
@@ -317,9 +170,9 @@ def check_continuity(
         for row in np.flatnonzero(jump | wide).tolist():
             limit = HALF_TURN_DEG if jump[row] else step_limit
             message = f"{letter} turns by {steps[row, k]:.4f} degrees in one block, more than {limit:g}"
-            findings.append(_finding("continuity", program, motion, row + 1, message))
+            findings.append(finding_at("continuity", program, motion, row + 1, message))
     findings += _wide_vectors(program, motion, cuts, step_limit)
-    return findings + _solution_changes(program, machine, motion, posed, cuts)
+    return findings + _solution_changes(program, machine, motion, known, cuts)
 
 
 def _wide_vectors(
@@ -328,7 +181,7 @@ def _wide_vectors(
     """Feed moves whose direction, given as a vector, turns by more than a rotary axis may."""
     turn = kinematics.angles_between_deg(motion.axis[1:], motion.axis[:-1])
     return [
-        _finding(
+        finding_at(
             "continuity", program, motion, row + 1, f"the tool turns by {turn[row]:.4f} degrees in one block"
         )
         for row in np.flatnonzero(cuts & (turn > step_limit)).tolist()
@@ -339,38 +192,20 @@ def _solution_changes(
     program: ParsedProgram,
     machine: Machine,
     motion: Motion,
-    posed: NDArray[np.bool_],
+    known: NDArray[np.bool_],
     cuts: NDArray[np.bool_],
 ) -> list[Finding]:
     """Feed moves in which the rotary solution is not the one of the feed moves before; where both meet, at the pole and
     at the end of the reach, it is neither."""
-    side = kinematics.solution_side(machine, _angles(motion, machine))
+    side = kinematics.solution_side(machine, angles_of(motion, machine))
     run = np.cumsum(
         np.append(True, ~cuts)
     )  # feed moves without another move between them have the same number
-    clear = np.flatnonzero(posed & (np.abs(side) > SIDE_EPSILON))
+    clear = np.flatnonzero(known & (np.abs(side) > SIDE_EPSILON))
     before, after = clear[:-1], clear[1:]
     changed = after[(run[before] == run[after]) & (side[before] * side[after] < 0)]
     message = "the rotary axes change to their other solution in a cut"
-    return [_finding("continuity", program, motion, row, message) for row in changed.tolist()]
-
-
-def _posed(motion: Motion, machine: Machine, control: Control) -> NDArray[np.bool_]:
-    """(K,): the move ends in a pose of the tool that the text tells."""
-    if control.tcp:
-        return motion.tcp
-    known = np.isfinite(motion.linear).all(axis=1) & np.isfinite(_angles(motion, machine)).all(axis=1)
-    return np.asarray(known)
-
-
-def _angles(motion: Motion, machine: Machine) -> Floats:
-    """(K, 2) in the machine's order, from the part to the tool."""
-    return np.column_stack([motion.angles[letter] for letter in machine.rotary_letters])
-
-
-def _finding(check: str, program: ParsedProgram, motion: Motion, row: int, message: str) -> Finding:
-    block = program.blocks[motion.block[row]]
-    return Finding(check, block.number, block.text, message)
+    return [finding_at("continuity", program, motion, row, message) for row in changed.tolist()]
 
 
 @dataclass(frozen=True)
