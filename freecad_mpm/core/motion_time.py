@@ -20,6 +20,7 @@ Floats = NDArray[np.float64]
 SECONDS_PER_MINUTE = 60.0
 # A feed move shorter than this (seconds) is none: its tip and axes stand still.
 NO_TIME_S = 1e-12
+SLOWED = 2.0
 
 
 def move_seconds(machine: Machine, moves: Moves, linear_mm: Floats) -> Floats:
@@ -39,6 +40,17 @@ def move_seconds(machine: Machine, moves: Moves, linear_mm: Floats) -> Floats:
         steady = np.maximum(tip / feed, (np.abs(way[run]) / velocity).max(axis=1))
         seconds[run] = _run_seconds(steady, way[run], acceleration)
     return seconds
+
+
+def slowed_cuts(machine: Machine, moves: Moves) -> NDArray[np.int64]:
+    """Rows of cuts in which a rotary axis at its greatest velocity takes more than SLOWED times as long as the tip at
+    its feed: the feed drops there, most of all near the pole."""
+    turn = np.abs(np.diff(moves.angles_deg, axis=0, prepend=moves.angles_deg[:1]))
+    velocity = np.array([axis.max_velocity_deg_per_min for axis in machine.rotary_axes])
+    way = np.linalg.norm(np.diff(moves.tip, axis=0, prepend=moves.tip[:1]), axis=1)
+    cutting = moves.kind == "cut"
+    tip_minutes = way / np.where(cutting, moves.feed_mm_per_min, np.inf)
+    return np.flatnonzero(cutting & ((turn / velocity).max(axis=1) > SLOWED * tip_minutes))
 
 
 def _limits(machine: Machine) -> tuple[Floats, Floats]:

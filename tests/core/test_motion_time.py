@@ -8,7 +8,7 @@ from machine_samples import directions
 
 from freecad_mpm.core import kinematics, machines
 from freecad_mpm.core.machine_path import machine_path
-from freecad_mpm.core.motion_time import move_seconds
+from freecad_mpm.core.motion_time import move_seconds, slowed_cuts
 
 # 500 mm/s and 5000 mm/s2 along X, Y and Z; 120 deg/s and 360 deg/s2 of both rotary axes
 MACHINE = "table_bc"
@@ -86,6 +86,16 @@ def test_a_turn_takes_the_rotary_axis_time():
     velocity, acceleration = ROTARY
     seconds = seconds_of([(0, 0, 0), (0.001, 0, 0)], directions(20.0, [0.0, 90.0]), 50.0)
     assert seconds.sum() == pytest.approx(90.0 / velocity + velocity / acceleration, rel=1e-2)
+
+
+def test_cuts_that_a_rotary_axis_slows_down_are_named():
+    """1 mm at 50 mm/s takes 0.02 s, in which 120 deg/s turn 2.4 degrees."""
+    machine, turns = machines.load(MACHINE), np.array([0.0, 2.0, 6.9, 6.9])  # steps of 2, 4.9 and 0 degrees
+    kind = np.array(["rapid", "cut", "cut", "cut"])
+    moves = machine_path(
+        machine, kind, straight(3.0, 3), directions(20.0, turns), np.full(4, 3000.0), axis_tolerance_deg=180.0
+    )
+    assert slowed_cuts(machine, moves).tolist() == [2]
 
 
 def test_rapids_stop_between_feed_moves():
