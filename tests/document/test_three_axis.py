@@ -100,7 +100,7 @@ def test_a_pocket_and_our_finishing_make_one_program(
     for name in posts.names():
         if tcp or posts.load(name).joints:
             job.PostProcessor = name if name == "dmu80p" else f"mpm_{name}"
-            text = post_process(job, tmp_path / name).decode("ascii")
+            text = post_process(job, tmp_path / f"{name}.nc").decode("ascii")
             assert_one_program(text, name, (pocket, op), Control(tcp, between_mm=0.0026))
 
 
