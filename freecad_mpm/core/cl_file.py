@@ -13,7 +13,7 @@ from pathlib import Path as FilePath
 import numpy as np
 
 from .errors import InputError
-from .plan import Floats, Integers, Names, Path, Positions
+from .plan import Flags, Floats, Integers, Names, Path, Positions
 
 HEADER = (
     "pass,index,kind,status,tip_x,tip_y,tip_z,axis_x,axis_y,axis_z,p_x,p_y,p_z,q_x,q_y,q_z,tilt_deg,spin_deg,"
@@ -22,6 +22,7 @@ HEADER = (
 KINDS = ("cut", "link", "rapid", "plunge", "retract")
 POSE_COLUMNS = ("tip_x", "tip_y", "tip_z", "axis_x", "axis_y", "axis_z")
 DECIMALS = 9
+NO_POSITION = -1  # index of a row that ends in none
 
 # An axis read from a file may differ from unit length by this much; it is then normalised.
 AXIS_LENGTH_SLACK = 1e-3
@@ -84,6 +85,7 @@ class Moves:
     tip: Floats  # (M, 3)
     axis: Floats  # (M, 3), unit
     line: Integers  # (M,), of the file, from 1
+    between: Flags  # (M,), a cut that ends between two positions: kind cut, index -1
 
     def __len__(self) -> int:
         return len(self.kind)
@@ -130,6 +132,7 @@ class _Reader:
             tip=poses[:, :3],
             axis=poses[:, 3:] / lengths[:, None],
             line=np.array([line for line, _ in self._rows]),
+            between=self._between(),
         )
 
     def _column(self, name: str) -> list[str]:
@@ -154,6 +157,11 @@ class _Reader:
         if "pass" not in self._names:
             return np.zeros(len(self._rows), dtype=np.int64)
         return self._numbers("pass").astype(np.int64)
+
+    def _between(self) -> Flags:
+        if "index" not in self._names:
+            return np.zeros(len(self._rows), dtype=bool)
+        return np.asarray((self._numbers("index") == NO_POSITION) & (self._kinds() == "cut"))
 
     def _error(self, row: int, message: str) -> InputError:
         return InputError(f"{self._path}:{self._rows[row][0]}: {message}")

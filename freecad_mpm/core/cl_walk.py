@@ -9,6 +9,9 @@ from typing import Any
 Point = Sequence[float]
 Errors = tuple[float, float]  # mm of the tip, degrees of the axis
 
+# A pose counts as met within the tolerances; further blocks on the way to it may then, rounded, be a little farther off.
+LINGERING = 1.5
+
 
 class Walk:
     """Takes the poses of a program one by one and says which of them do not belong to the list.
@@ -16,16 +19,26 @@ class Walk:
     A pose belongs when it is the one that the list has next, or lies on the straight line and the great circle to it.
     Plain floats: a list of 100,000 poses is walked in a second."""
 
-    def __init__(self, tip: Any, axis: Any, tip_tolerance_mm: float, axis_tolerance_deg: float) -> None:
+    def __init__(
+        self, tip: Any, axis: Any, tip_tolerance_mm: float, axis_tolerance_deg: float, may_rise: bool = False
+    ) -> None:
+        """may_rise: between two poses the program may go anywhere above both at rapid rate."""
         self._tip = [tuple(p) for p in tip]
         self._axis = [tuple(d) for d in axis]
         self._tip_tolerance_mm, self._axis_tolerance_deg = tip_tolerance_mm, axis_tolerance_deg
+        self._may_rise = may_rise
+        self._away = True  # not on the list yet, or for another tool
         self.next = 0  # pose of the list that is expected
         self._worst: Errors = (0.0, 0.0)
         self._last: Errors = (
             0.0,
             0.0,
         )  # of the last pose of the list: a later block may still meet it better
+
+    def leave(self) -> None:
+        """The program leaves the list, for another tool: at rapid rate it may go anywhere until it meets the next
+        pose."""
+        self._away = True
 
     @property
     def tip_error_mm(self) -> float:
@@ -40,13 +53,13 @@ class Walk:
         """The program's next pose: what is wrong with it, or an empty string."""
         if self._meets(self.next, tip, axis):
             self._go_to(self.next, tip, axis)
-        elif self.next == 0:
-            return "" if rapid else "a feed move before the first pose of the CL list"
-        elif self._meets(self.next - 1, tip, axis):
+        elif self._away:
+            return "" if rapid else f"a feed move before pose {self.next} of the CL list"
+        elif self._meets(self.next - 1, tip, axis, LINGERING):
             self._last = min(self._last, self._errors(self.next - 1, tip, axis), key=self._in_tolerances)
         elif self.next == len(self._tip):
             return "a move after the last pose of the CL list"
-        elif not self._on_the_way(tip, axis, rapid):
+        elif not self._on_the_way(tip, axis, rapid) and not (rapid and self._above(tip)):
             return self._lost(tip, axis)
         return ""
 
@@ -58,13 +71,13 @@ class Walk:
         in_tip, in_axis = errors[0] / self._tip_tolerance_mm, errors[1] / self._axis_tolerance_deg
         return in_tip if math.isnan(in_tip) else max(in_tip, in_axis)
 
-    def _meets(self, pose: int, tip: Point, axis: Point) -> bool:
-        return pose < len(self._tip) and self._in_tolerances(self._errors(pose, tip, axis)) <= 1.0
+    def _meets(self, pose: int, tip: Point, axis: Point, tolerances: float = 1.0) -> bool:
+        return pose < len(self._tip) and self._in_tolerances(self._errors(pose, tip, axis)) <= tolerances
 
     def _go_to(self, pose: int, tip: Point, axis: Point) -> None:
         self._note(self._last)
         self._last = self._errors(pose, tip, axis)
-        self.next = pose + 1
+        self.next, self._away = pose + 1, False
 
     def _note(self, errors: Errors) -> None:
         self._worst = max(self._worst[0], errors[0]), max(self._worst[1], errors[1])
@@ -83,6 +96,10 @@ class Walk:
             return False
         self._note((off_line, off_circle))
         return True
+
+    def _above(self, tip: Point) -> bool:
+        highest = max(self._tip[self.next - 1][2], self._tip[self.next][2])
+        return self._may_rise and tip[2] >= highest - self._tip_tolerance_mm
 
     def _lost(self, tip: Point, axis: Point) -> str:
         missed = self.next

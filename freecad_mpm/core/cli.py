@@ -65,6 +65,11 @@ def make_parser() -> Parser:
     plan = commands.add_parser("plan", help="compute a job: positions, path, program, report")
     plan.add_argument("job", metavar="JOB.toml")
     plan.add_argument("--out", metavar="DIR", required=True, help="folder for the results, made when missing")
+    plan.add_argument(
+        "--proof",
+        action="store_true",
+        help="also write a program that shows whether the machine file is right",
+    )
     _add_threads(plan)
 
     info = commands.add_parser("info", help="list the faces of a part")
@@ -79,6 +84,9 @@ def make_parser() -> Parser:
     check.add_argument("program", metavar="PROGRAM")
     check.add_argument("--machine", metavar="NAME", required=True, help="a shipped machine or its file")
     check.add_argument("--post", metavar="NAME", help="whose dialect it is; default: the one it looks like")
+    check.add_argument(
+        "--joints", action="store_true", help="it moves the joints: no tool-centre-point control"
+    )
     check.add_argument("--against", metavar="cl.csv", help="poses that the program must meet in their order")
 
     bench = commands.add_parser("bench", help="compare the methods and write bench.json")

@@ -21,6 +21,8 @@ def plan(arguments: Namespace, progress: ProgressLine) -> int:
     spec = job.load(arguments.job)
     computed = planning.plan(spec, on_progress=progress, threads=arguments.threads)
     files = results.files(computed, Stages(progress, threads=arguments.threads))
+    if arguments.proof:
+        files |= results.proof(computed)
     progress.clear()
     print(report.text(computed.report), end="")
     _write(arguments.out, files)
@@ -42,7 +44,9 @@ def verify(arguments: Namespace, progress: ProgressLine) -> int:
 
 
 def check(arguments: Namespace, progress: ProgressLine) -> int:
-    found = check_file(arguments.program, arguments.machine, arguments.post, arguments.against)
+    found = check_file(
+        arguments.program, arguments.machine, arguments.post, arguments.against, not arguments.joints
+    )
     print(*found.lines, sep="\n")
     return GOOD if found.good else NOT_GOOD
 

@@ -114,6 +114,8 @@ class PostSpec(Section):
     spindle_rpm: float = key(positive("turns per minute"), 8000.0)
     cut_feed_mm_per_min: float = key(positive("mm/min"), 1000.0)
     plunge_feed_mm_per_min: float = key(positive("mm/min"), 300.0)
+    tcp: bool = key(checks.flag, True)  # the control holds the tip; false: the program moves the joints
+    options: dict[str, Any] = field(default_factory=dict, metadata={"check": checks.options})
 
 
 _TABLES: tuple[type[Section], ...] = (

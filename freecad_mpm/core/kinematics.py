@@ -9,6 +9,9 @@ from .machines import Machine, RotaryAxis
 
 Floats = NDArray[np.float64]
 
+# Under this a great circle and its chord are the same to the last digit.
+SMALL_SINE = 1e-8
+
 
 def tool_axes(machine: Machine, angles_deg: Floats) -> Floats:
     """Unit tool axes (N, 3) in the part's frame at rotary readings (N, 2)."""
@@ -33,6 +36,26 @@ def linear_readings(
     return np.asarray(on_table - at_tool)
 
 
+def tips(
+    machine: Machine, linear: Floats, angles_deg: Floats, part_origin_mm: Floats, tool_length_mm: float
+) -> Floats:
+    """Tips (N, 3) in the part's frame at readings of the linear (N, 3) and rotary (N, 2) axes."""
+    at_tool = np.tile(-tool_length_mm * _unit(machine.kinematics.spindle_axis), (len(linear), 1))
+    for k in (1, 0):
+        if machine.rotary_axes[k].role == "head_rotary":
+            at_tool = _turned_about_line(machine.rotary_axes[k], angles_deg[:, k], at_tool)
+    in_part = np.asarray(linear) + at_tool
+    for k in (1, 0):
+        if machine.rotary_axes[k].role == "table_rotary":
+            in_part = _turned_about_line(machine.rotary_axes[k], angles_deg[:, k], in_part)
+    return np.asarray(in_part - part_origin_mm)
+
+
+def datum_mm(machine: Machine, part_origin_mm: Floats, tool_length_mm: float) -> Floats:
+    """What a control without tool-centre-point control takes off the readings of X, Y and Z: datum and tool length."""
+    return np.asarray(part_origin_mm + tool_length_mm * _unit(machine.kinematics.spindle_axis))
+
+
 def solution_side(machine: Machine, angles_deg: Floats) -> Floats:
     """A number (N,) whose sign tells the two rotary solutions apart; 0 where they meet (pole and end of reach)."""
     first, second = (_unit(axis.rotation_vector) for axis in machine.rotary_axes)
@@ -54,6 +77,17 @@ def angles_between_deg(a: Floats, b: Floats) -> Floats:
     return np.asarray(
         np.degrees(np.arctan2(np.linalg.norm(np.cross(a, b), axis=1), np.einsum("ij,ij->i", a, b)))
     )
+
+
+def great_circle(a: Floats, b: Floats, s: float) -> Floats:
+    """Directions (N, 3) a fraction s of the way from a (N, 3) to b (N, 3), which are not opposite."""
+    angle = np.radians(angles_between_deg(a, b))[:, None]
+    sine = np.sin(angle)
+    small = sine < SMALL_SINE
+    sine = np.where(small, 1.0, sine)
+    from_a = np.where(small, 1.0 - s, np.sin((1.0 - s) * angle) / sine)
+    from_b = np.where(small, s, np.sin(s * angle) / sine)
+    return np.asarray(from_a * a + from_b * b)
 
 
 def _unit(vector: tuple[float, float, float]) -> Floats:

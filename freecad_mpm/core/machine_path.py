@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,12 +18,18 @@ Integers = NDArray[np.int64]
 # Rotary readings this near are the same position: far under the 0.0001 degrees that controls resolve.
 SAME_ANGLE_DEG = 1e-9
 
+OFF_LINE = "off_line"
 TROUBLE = {
     "unreachable": "the rotary axes cannot give the tool's direction",
     "rotary_limit": "a rotary axis leaves its limits",
     "linear_limit": "a linear axis leaves its limits",
     "forced_turn": "the cut needs a rewind or the other rotary solution",
+    OFF_LINE: "between its ends the tool leaves its way by more than the tolerance",
 }
+# Under the end of the Z axis, where a machine without tool-centre-point control turns out of the part's way; over the
+# program's highest place when the axis has no end.
+BELOW_END_MM = 1.0
+ABOVE_ALL_MM = 100.0
 
 
 @dataclass(frozen=True)
@@ -31,17 +38,31 @@ class MachinePath(Moves):
 
     linear_mm: Floats  # (M, 3) readings of X, Y, Z: the spindle gauge point in the machine frame
     source: Integers  # (M,) index of the given move that the move is part of
-    status: Names  # (M,) of _core.JOINT_STATUS
+    status: Names  # (M,) of _core.JOINT_STATUS, or OFF_LINE
     at_pole: Flags  # (M,) inside the machine's pole cone: the first rotary axis follows its neighbours
 
-    def troubles(self) -> list[str]:
-        """One line for each kind of trouble, with how many moves have it and the first given move that has."""
+    def troubles(self, position: Integers | None = None) -> list[str]:
+        """One line for each kind of trouble: how many moves have it, and the first of the given moves that has.
+
+        position: (N,) of the given moves, as in a plan's path: the line then also names the position that is near.
+        """
         lines = []
         for status, meaning in TROUBLE.items():
             rows = np.flatnonzero(self.status == status)
             if len(rows):
-                lines.append(f"{meaning}: {len(rows)} moves, the first in move {self.source[rows[0]]}")
+                first = int(self.source[rows[0]])
+                at = "" if position is None else _near(position, first)
+                lines.append(f"{meaning}: {len(rows)} moves, the first in move {first}{at}")
         return lines
+
+
+def _near(position: Integers, move: int) -> str:
+    """Words for the last position up to a move, or the first of all."""
+    named = np.flatnonzero(position >= 0)
+    if not len(named):
+        return ""
+    before = named[named <= move]
+    return f" at position {position[before[-1] if len(before) else named[0]]}"
 
 
 @dataclass(frozen=True)
@@ -69,6 +90,7 @@ def machine_path(
     feed_mm_per_min: Floats,
     *,
     axis_tolerance_deg: float,
+    tip_tolerance_mm: float | None = None,
     part_origin_mm: tuple[float, float, float] | None = None,
     tool_length_mm: float | None = None,
 ) -> MachinePath:
@@ -82,14 +104,19 @@ def machine_path(
     part_origin_mm (of the set-up in the machine frame) and tool_length_mm: None takes the machine file's.
     Raises ValueError naming the argument."""
     setup = machine.setup
-    rows = _with_rapids_in_two(kind, tip, axis)
+    place = {
+        "part_origin_mm": setup.part_origin_mm if part_origin_mm is None else part_origin_mm,
+        "tool_length_mm": setup.tool_length_mm if tool_length_mm is None else tool_length_mm,
+    }
+    tcp = tip_tolerance_mm is None
+    rows = _with_rapids_in_two(kind, tip, axis) if tcp else _as_given(kind, tip, axis)
     joints = _core.refine_path(
         machine.chain(),
         rows.tip,
         rows.axis,
         rows.held,
-        part_origin_mm=setup.part_origin_mm if part_origin_mm is None else part_origin_mm,
-        tool_length_mm=setup.tool_length_mm if tool_length_mm is None else tool_length_mm,
+        **place,
+        tip_tolerance_mm=np.inf if tip_tolerance_mm is None else tip_tolerance_mm,
         pole_cone_deg=machine.kinematics.pole_cone_deg,
         axis_tolerance_deg=axis_tolerance_deg,
         max_rotary_step_deg=machine.kinematics.max_rotary_step_deg,
@@ -97,7 +124,9 @@ def machine_path(
     row = joints["source"].astype(np.int64)
     keep = ~_redundant(joints["rotary_deg"], joints["tip"], rows.turns_first[row], rows.travels_first[row])
     source = rows.source[row[keep]]
-    return MachinePath(
+    status = np.array(_core.JOINT_STATUS + (OFF_LINE,))[joints["status"][keep]]
+    status[(status == "ok") & ~joints["keeps"][keep] & (kind[source] != "rapid")] = OFF_LINE
+    path = MachinePath(
         kind=kind[source],
         tip=joints["tip"][keep],
         axis=joints["axis"][keep],
@@ -105,9 +134,43 @@ def machine_path(
         feed_mm_per_min=feed_mm_per_min[source],
         linear_mm=joints["linear_mm"][keep],
         source=source,
-        status=np.array(_core.JOINT_STATUS)[joints["status"][keep]],
+        status=status,
         at_pole=joints["at_pole"][keep],
     )
+    return path if tcp else _with_turns_at_the_top(machine, path, joints["keeps"][keep], place)
+
+
+def _with_turns_at_the_top(
+    machine: Machine, path: MachinePath, keeps: Flags, place: dict[str, Any]
+) -> MachinePath:
+    """Before each rapid whose joints would swing the tip off its way: up along Z, the turn, and across, so that the
+    rapid itself only goes down."""
+    turns = np.flatnonzero(~keeps & (path.kind == "rapid"))
+    if not len(turns):
+        return path
+    limit = machine.linear_axes[2].max_limit_mm
+    z = path.linear_mm[:, 2].max() + ABOVE_ALL_MM if np.isinf(limit) else limit - BELOW_END_MM
+    before = np.repeat(turns - 1, 3)
+    before[2::3] = before[1::3] = turns
+    linear, angles = path.linear_mm[before], path.angles_deg[before]
+    linear[1::3] = path.linear_mm[turns - 1]
+    linear[:, 2] = np.maximum(z, linear[:, 2])
+    angles[0::3] = path.angles_deg[turns - 1]
+    tip, axis = machine.chain().forward(linear, angles, **place)
+    given = np.repeat(turns, 3)
+    inserted = {"tip": tip, "axis": axis, "linear_mm": linear, "angles_deg": angles}
+    columns = {
+        one.name: np.insert(
+            getattr(path, one.name), given, inserted.get(one.name, getattr(path, one.name)[given]), axis=0
+        )
+        for one in fields(MachinePath)
+    }
+    return MachinePath(**columns)
+
+
+def _as_given(kind: Names, tip: Floats, axis: Floats) -> _Rows:
+    none = np.zeros(len(kind), dtype=bool)
+    return _Rows(tip, axis, np.arange(len(kind)), none, none, held=kind != "rapid")
 
 
 def _with_rapids_in_two(kind: Names, tip: Floats, axis: Floats) -> _Rows:

@@ -1,7 +1,8 @@
 """Proving the moves between positions: every cut is certified; where it is not free, positions are put in between.
 
 The tolerance of a cut is the chord tolerance. A share of it is given away to the control, whose rotary axes run evenly
-and so leave the great circle; the certificate takes that share off again at the full length of the lever."""
+and so leave the great circle; the certificate takes that share off again at the full length of the lever. A control that
+does not hold the tip has as much again for the tip."""
 
 from __future__ import annotations
 
@@ -34,6 +35,11 @@ Place = Callable[[Floats], Positions]
 def control_deviation_deg(job: Job) -> float:
     """How far (degrees) the machine's real axis may be off the great circle between two given axes."""
     return axis_tolerance_deg(CONTROL_SHARE * job.tolerance.chord_mm, job.tool.radius_mm)
+
+
+def control_tip_deviation_mm(job: Job) -> float:
+    """How far the tip may be off its line between two blocks: not at all where the control holds it."""
+    return 0.0 if job.post.tcp else CONTROL_SHARE * job.tolerance.chord_mm
 
 
 @dataclass(frozen=True)
@@ -72,7 +78,9 @@ def certify(
     job: Job, scene: Scene, tip: Floats, axis: Floats, ends: Integers, stages: Stages
 ) -> dict[str, Any]:
     """Certificates of the moves that lead to the rows `ends` (K,) of tip, axis (N, 3) from the rows before them:
-    lo, hi (K,) mm, verdict (K,) names, cells (K,)."""
+    lo, hi (K,) mm, verdict (K,) names, cells (K,). A tip that is off its line takes as much off the clearance.
+    """
+    tip_off = control_tip_deviation_mm(job)
     found = stages.run_native(
         STAGE,
         _core.certify_motions,
@@ -82,10 +90,10 @@ def certify(
         axis[ends - 1],
         tip[ends],
         axis[ends],
-        tolerance_mm=cut_depth_mm(job.tolerance, PROVEN),
+        tolerance_mm=cut_depth_mm(job.tolerance, PROVEN) - tip_off,
         axis_deviation_deg=control_deviation_deg(job),
     )
-    return {**found, "verdict": np.array(_core.VERDICTS)[found["verdict"]]}
+    return {**found, "lo": found["lo"] - tip_off, "verdict": np.array(_core.VERDICTS)[found["verdict"]]}
 
 
 @dataclass(frozen=True)

@@ -13,16 +13,15 @@ from .errors import blame
 from .faces import FaceArrays
 from .frame import Frame
 from .job import Job, MethodSpec
+from .linking import link_options
 from .model import Scene, build_scene
 from .part_file import read_part
 from .plan import Flags, Floats, Integers, Path, Plan, Positions
+from .rewind import fit_to_machine
 from .sections import suggestion
-from .shop import find_shop, run_machine
+from .shop import find_shop, make_program
 from .stages import Cancel, Progress, Stages
 from .verdict import PROVEN, judge
-
-# A cut may join positions that are this many forward steps apart; the pattern itself leaves no wider ones in a pass.
-CUT_LENGTH_STEPS = 1.5
 
 
 @dataclass(frozen=True)
@@ -56,7 +55,8 @@ def plan(
     footprint = lay_out(job, scene, stages)
     positions, cuts, counters = place_and_prove(job, scene, footprint, stages)
     path = link(job, scene, positions, cuts, stages)
-    made = run_machine(job, shop, path, scene.model.bounds(), stages)
+    path, joints = fit_to_machine(job, shop, scene, path, stages)
+    made = make_program(job, shop, path, joints, scene.model.bounds(), stages)
     positions, path = positions_in_part(positions, scene.frame), path_in_part(path, scene.frame)
     verdict = judge(positions, path, made.troubles, job.tolerance, guarantee_of(job))
     facts = report.facts(job, shop.machine, positions, path, made, counters, stages.seconds, verdict)
@@ -211,14 +211,7 @@ def place(
 def link(job: Job, scene: Scene, positions: Positions, cuts: Floats | None, stages: Stages) -> Path:
     """The path over the usable positions, in the set-up frame. cuts: (N,) proven clearances of the cuts that end in the
     positions, NaN where there must be none; None: sampling decides."""
-    spec = job.link
-    options = _core.LinkOptions(
-        safe_clearance_mm=spec.safe_clearance_mm,
-        approach_distance_mm=spec.approach_distance_mm,
-        gouge_mm=job.tolerance.gouge_mm,
-        cut_length_max_mm=CUT_LENGTH_STEPS * job.footprint.forward_step_mm,
-    )
-    with blame(f"{job.source}: [{spec.table}]"):
+    with blame(f"{job.source}: [{job.link.table}]"):
         linked = stages.run_native(
             "path",
             _core.link_passes,
@@ -228,7 +221,7 @@ def link(job: Job, scene: Scene, positions: Positions, cuts: Floats | None, stag
             positions.axis,
             positions.pass_index,
             positions.usable,
-            options=options,
+            options=link_options(job),
             cut_clearance=cuts,
         )
     linked["kind"] = np.array(_core.MOVE_KINDS)[linked["kind"]]

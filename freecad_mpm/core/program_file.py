@@ -9,13 +9,14 @@ import numpy as np
 
 from . import dialects, machines, posts
 from .cl_file import read_csv
+from .control import Control
 from .errors import InputError, blame
 from .plan import Floats
 from .program_check import CheckResult, check_program
 from .program_reader import ParsedProgram
 
 LISTED_FINDINGS = 10
-CHECKS = ("grammar", "state", "round trip", "limits", "continuity")
+CHECKS = ("grammar", "state", "round trip", "limits", "continuity", "straightness")
 
 
 @dataclass(frozen=True)
@@ -45,25 +46,32 @@ class Checked:
             return "not made, no CL file was given"
         count = sum(one.check == check for one in self.result.findings)
         outcome = f"{count} findings" if count else "passed"
+        if check == "straightness":
+            tip, axis = self.result.tip_between_mm, self.result.axis_between_deg
+            return f"{outcome}, tip off its line <= {tip:.6f} mm, axis off its great circle <= {axis:.6f} deg"
         if check != "round trip":
             return outcome
         tip, axis = self.result.tip_error_mm, self.result.axis_error_deg
         return f"{outcome}, tip error <= {tip:.6f} mm, axis error <= {axis:.6f} deg"
 
 
-def check_file(program: str, machine: str, post: str | None = None, against: str | None = None) -> Checked:
+def check_file(
+    program: str, machine: str, post: str | None = None, against: str | None = None, tcp: bool = True
+) -> Checked:
     """All checks of a program's file; post None: the dialect that the text looks like; against: a cl.csv in the frame of
-    the program. Raises InputError for files, machines and posts that there are not."""
+    the program; tcp: the control holds the tip. Raises InputError for files, machines and posts that there are not.
+    """
+    control = Control(tcp)
     chain = machines.load(machine)
     dialect = None if post is None else posts.load(post).dialect
     text = _text(program)
     with blame(f"{program}:"):
         parsed = dialects.read(text, dialect)
     if against is None:
-        return Checked(parsed, check_program(parsed, chain), compared=False)
+        return Checked(parsed, check_program(parsed, chain, control=control), compared=False)
     moves = read_csv(against)
     tip, axis = _without_repeats(moves.tip, moves.axis)
-    return Checked(parsed, check_program(parsed, chain, tip, axis), compared=True)
+    return Checked(parsed, check_program(parsed, chain, tip, axis, control), compared=True)
 
 
 def _text(path: str) -> str:

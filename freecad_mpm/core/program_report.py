@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -11,12 +10,12 @@ from numpy.typing import NDArray
 
 from . import kinematics
 from .machines import Machine
+from .motion_time import SECONDS_PER_MINUTE, move_seconds
 from .posts.program import MOVE_KINDS, Moves, Program
 from .program_check import CheckResult
 
 Floats = NDArray[np.float64]
 
-SECONDS_PER_MINUTE = 60.0
 # A cut that comes this near to the pole makes the first rotary axis race: it counts as a passage.
 POLE_ZONE_DEG = 0.5
 # So many findings are listed; the rest is counted.
@@ -37,13 +36,15 @@ class AxisUse:
 class ProgramReport:
     blocks: int
     length_mm: dict[str, float]  # by kind of move
-    time_s: dict[str, float]  # by kind of move; rapids with their accelerations, feed moves without
+    time_s: dict[str, float]  # by kind of move, with the axes' accelerations
     axes: dict[str, AxisUse]  # X, Y, Z and the rotary axes
     largest_step_deg: dict[str, float]  # by rotary axis, in feed moves
     pole_passages: int
     nearest_to_pole_deg: float
     tip_error_mm: float  # of the text read back, against the CL list
     axis_error_deg: float
+    tip_between_mm: float  # off its line between two blocks; 0 where the control holds it
+    axis_between_deg: float  # off its great circle
     findings: list[str]
 
     def to_dict(self) -> dict[str, Any]:
@@ -68,6 +69,8 @@ class ProgramReport:
             f"Pole: {self.pole_passages} passages under {POLE_ZONE_DEG:g} deg, "
             f"nearest {self.nearest_to_pole_deg:.3f} deg",
             f"Text parsed back: {self._errors()}",
+            f"Between the blocks: tip off its line <= {self.tip_between_mm:.6f} mm, "
+            f"axis off its great circle <= {self.axis_between_deg:.6f} deg",
             f"Checks: {'passed' if not self.findings else f'{len(self.findings)} findings'}",
             *(f"  {finding}" for finding in listed),
             *([f"  and {more} more"] if more else []),
@@ -103,38 +106,10 @@ def report(
         nearest_to_pole_deg=nearest,
         tip_error_mm=checks.tip_error_mm,
         axis_error_deg=checks.axis_error_deg,
+        tip_between_mm=checks.tip_between_mm,
+        axis_between_deg=checks.axis_between_deg,
         findings=[str(finding) for finding in checks.findings],
     )
-
-
-def move_seconds(machine: Machine, moves: Moves, linear_mm: Floats) -> Floats:
-    """Time of each move (M,): of the tip at its feed, or of the axis that needs longest.
-
-    Feed moves run through at the greatest velocity of the axis; rapids start and end at rest, so that their axes also
-    speed up and slow down: d / v + v / a, or 2 sqrt(d / a) when v is not reached on the way d."""
-    seconds = SECONDS_PER_MINUTE * _steps(moves.tip) / np.where(moves.is_rapid, np.inf, moves.feed_mm_per_min)
-    for way, velocity, acceleration in _axis_ways(machine, moves, linear_mm):
-        per_second = velocity / SECONDS_PER_MINUTE
-        seconds = np.maximum(
-            seconds, np.where(moves.is_rapid, _rest_to_rest(way, per_second, acceleration), way / per_second)
-        )
-    return np.asarray(seconds)
-
-
-def _axis_ways(machine: Machine, moves: Moves, linear_mm: Floats) -> Iterator[tuple[Floats, float, float]]:
-    """Of each of the five axes: its way in every move (M,), velocity (per minute) and acceleration (per s2)."""
-    for k, linear in enumerate(machine.linear_axes):
-        way = np.abs(np.diff(linear_mm[:, k], prepend=linear_mm[:1, k]))
-        yield way, linear.max_velocity_mm_per_min, linear.max_acceleration_mm_per_s2
-    for k, rotary in enumerate(machine.rotary_axes):
-        way = np.abs(np.diff(moves.angles_deg[:, k], prepend=moves.angles_deg[:1, k]))
-        yield way, rotary.max_velocity_deg_per_min, rotary.max_acceleration_deg_per_s2
-
-
-def _rest_to_rest(way: Floats, velocity: float, acceleration: float) -> Floats:
-    """Seconds (M,) for ways from rest to rest with one velocity and acceleration limit."""
-    short = way * acceleration < velocity**2
-    return np.where(short, 2 * np.sqrt(way / acceleration), way / velocity + velocity / acceleration)
 
 
 def _steps(points: Floats) -> Floats:

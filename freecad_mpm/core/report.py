@@ -11,13 +11,18 @@ import numpy as np
 
 from .job import Job
 from .machines import Machine
-from .plan import UNUSABLE, Path, Positions
+from .motion_time import slowed_cuts
+from .plan import UNUSABLE, Integers, Path, Positions
+from .rewind import rewinds
 from .shop import Made
 from .statement import not_cut, statement
 from .verdict import PROVEN, Verdict, digging, gouging, undecided
 from .version import __version__
 
 Facts = dict[str, Any]
+
+# So many positions are named in a warning.
+LISTED_POSITIONS = 10
 
 
 def facts(
@@ -34,7 +39,7 @@ def facts(
     return {
         "version": __version__,
         "verdict": {"good": verdict.good, "line": verdict.line, "troubles": list(verdict.troubles)},
-        "warnings": warnings(job, machine, positions, path, verdict.guarantee),
+        "warnings": warnings(job, machine, positions, path, verdict.guarantee) + _slowed(machine, path, made),
         "job": _job_facts(job),
         "positions": _position_facts(job, positions, verdict.guarantee),
         "worst_position": _worst_position(positions),
@@ -59,10 +64,33 @@ def warnings(job: Job, machine: Machine, positions: Positions, path: Path, guara
     left_out = np.count_nonzero(~positions.usable)
     if left_out:
         found.append(f"{left_out} positions ({', '.join(UNUSABLE)}) are left out of the path")
+    turned = rewinds(path)
+    if len(turned):
+        places = _listed(turned)
+        found.append(
+            f"{len(turned)} cuts are interrupted for a rotary axis to rewind on the safe plane, "
+            f"before positions {places}"
+        )
     gaps = not_cut(positions, path)
     if gaps:
         found.append(f"{gaps} moves between neighbours of a pass are not cut: the tool retracts there")
     return found
+
+
+def _slowed(machine: Machine, path: Path, made: Made) -> list[str]:
+    """Cuts in which the rotary axes cannot follow the feed."""
+    moves = np.unique(made.joints.source[slowed_cuts(machine, made.joints)])
+    places = path.position[moves][path.position[moves] >= 0]
+    if not len(places):
+        return []
+    return [
+        f"the rotary axes slow {len(places)} cuts down to less than half their feed, to positions {_listed(places)}"
+    ]
+
+
+def _listed(positions: Integers) -> str:
+    more = ", …" if len(positions) > LISTED_POSITIONS else ""
+    return ", ".join(map(str, positions[:LISTED_POSITIONS])) + more
 
 
 def _job_facts(job: Job) -> Facts:

@@ -8,6 +8,8 @@ from pathlib import Path as FilePath
 from . import cl_file, machined, picture, report
 from .apt import to_apt
 from .plan import Path, Plan
+from .proof import proof_file
+from .shop import find_shop
 from .stages import Stages
 
 
@@ -22,6 +24,12 @@ def files(plan: Plan, stages: Stages) -> dict[str, bytes | str]:
         "machined.stl": _machined_stl(plan, stages),
         "path.png": stages.run("path.png", _picture, plan),
     }
+
+
+def proof(plan: Plan) -> dict[str, bytes | str]:
+    """The proof program of the plan's machine and post, as a file."""
+    made = proof_file(plan.job, find_shop(plan.job), plan.scene.model.bounds())
+    return {made.file_name: made.text}
 
 
 def _apt(plan: Plan) -> str:

@@ -14,7 +14,8 @@ MICROMETRES = 1000.0  # in a millimetre
 
 def not_cut(positions: Positions, path: Path) -> int:
     """Moves between neighbours of a pass that the path does not cut: the tool retracts and plunges instead."""
-    return int(np.count_nonzero(neighbours(positions)) - np.count_nonzero(path.kind == "cut"))
+    cuts = (path.kind == "cut") & (path.position >= 0)  # not the first piece of a cut that is interrupted
+    return int(np.count_nonzero(neighbours(positions)) - np.count_nonzero(cuts))
 
 
 def statement(positions: Positions, path: Path, tolerance: Tolerance, guarantee: str) -> str:

@@ -30,15 +30,24 @@ class Verification:
     cut_verdict: Names
 
     @property
+    def too_deep(self) -> Flags:
+        """(M,): poses that cut in deeper than they may: positions by the gouge tolerance, and places between two
+        positions, where a cut is interrupted, as deep as the cut itself."""
+        moves, tolerance = self.moves, self.job.tolerance
+        poses = list(map(tuple, np.hstack((moves.tip, moves.axis)).tolist()))
+        between = {poses[row] for row in np.flatnonzero(moves.between).tolist()}
+        inside = np.array([pose in between for pose in poses])
+        return self.clearance < -np.where(inside, cut_depth_mm(tolerance, PROVEN), tolerance.gouge_mm)
+
+    @property
     def good(self) -> bool:
-        poses_good = bool((self.clearance >= -self.job.tolerance.gouge_mm).all())
-        return poses_good and bool((self.cut_verdict == "free").all())
+        return not self.too_deep.any() and bool((self.cut_verdict == "free").all())
 
     @property
     def lines(self) -> list[str]:
         """What was found, for people."""
         tolerance = self.job.tolerance.gouge_mm
-        gouging = int(np.count_nonzero(self.clearance < -tolerance))
+        gouging = int(np.count_nonzero(self.too_deep))
         worst = int(np.argmin(self.clearance))
         verdict = "good" if self.good else "NOT GOOD"
         return [

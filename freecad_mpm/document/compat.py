@@ -77,6 +77,14 @@ def torus_of(bit: Any) -> tuple[float, float]:
     )
 
 
+def radii_of(bit: Any) -> tuple[float, float]:
+    """The same of any tool bit with a diameter; one that is no bull nose or ball counts as an end mill."""
+    try:
+        return torus_of(bit)
+    except ValueError:
+        return float(bit.Diameter.Value) / 2, 0.0
+
+
 def _shape_name(bit: Any) -> str:
     """The bit's shape in lower case without folder and ending, e.g. 'ballend'."""
     name = str(getattr(bit, "ShapeType", "") or getattr(bit, "BitShape", "") or "unknown")

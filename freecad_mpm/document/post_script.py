@@ -8,34 +8,28 @@ from __future__ import annotations
 from typing import Any
 
 from ..core.output import write_atomically
-from . import compat
+from . import compat, post_arguments
 
 TOOLTIP = "Five-axis programs of Multi-Point Finish operations: {}"
-TOOLTIP_ARGS = "There are no arguments."
+TOOLTIP_ARGS = post_arguments.help_text()
 UNITS = "G21"  # FreeCAD's word for metric
 NO_FILE = "-"
 
 
-def program_of(objects: list[Any], post: str) -> str:
-    """The program of the Multi-Point Finish operations among the objects to post, which are fixtures, tool controllers
-    and operations. Raises InputError for operations of another kind."""
-    from ..core.errors import InputError
+def program_of(objects: list[Any], post: str, arguments: str = "") -> str:
+    """The program of the active operations among the objects to post, which are fixtures, tool controllers and
+    operations. Raises InputError for what cannot be written."""
     from . import program
-    from .operation import is_operation
 
-    for obj in objects:
-        if hasattr(obj, "ToolController") and not is_operation(obj):
-            raise InputError(
-                f"{obj.Label}: the post {post} writes Multi-Point Finish operations only; deactivate it"
-            )
-    result = program.program_text([obj for obj in objects if is_operation(obj) and obj.Active], post)
+    ops = [obj for obj in objects if hasattr(obj, "ToolController") and getattr(obj, "Active", True)]
+    result = program.program_text(ops, post, arguments)
     program.warn(result)
     return result.text
 
 
-def export(objects: list[Any], filename: str, post: str) -> str:
+def export(objects: list[Any], filename: str, post: str, arguments: str = "") -> str:
     """FreeCAD 0.20's entry: writes the file, unless it is named "-", and returns its text."""
-    text = program_of(objects, post)
+    text = program_of(objects, post, arguments)
     if filename != NO_FILE:
         write_atomically(filename, text)
     return text
@@ -52,7 +46,10 @@ def post_class(post: str, tooltip: str) -> type | None:
             super().__init__(job=job, tooltip=tooltip, tooltipargs=TOOLTIP_ARGS, units="Metric")
 
         def export(self) -> list[tuple[str, str]]:
-            return [(section, program_of(objects, post)) for section, objects in self._buildPostList()]
+            arguments = self._job.PostProcessorArgs
+            return [
+                (section, program_of(objects, post, arguments)) for section, objects in self._buildPostList()
+            ]
 
     Post.tooltip, Post.tooltipArgs = tooltip, TOOLTIP_ARGS
     return Post

@@ -11,12 +11,19 @@ import numpy as np
 
 from ..core import posts, shop
 from ..core.errors import InputError
+from ..core.job import Job
+from ..core.machine_path import MachinePath
 from ..core.output import write_atomically
-from ..core.plan import Path, ProgramFile
-from . import cl_path, compat
+from ..core.plan import Path
+from ..core.posts.program import Program, ProgramTool
+from . import cl_path, compat, three_axis
 from .job_spec import job_of, post_of
+from .operation import is_operation
+from .post_arguments import PostArguments, parse
 
 NO_POSITION = -1
+# CAM's words for coolant -> the core's.
+COOLANT = {"None": "off", "Flood": "flood", "Mist": "mist"}
 
 
 @dataclass(frozen=True)
@@ -41,66 +48,121 @@ def default_name(op: Any) -> str:
     return post_of(op).program_name + posts.load(op.Post).file_ending
 
 
-def program_text(ops: Sequence[Any], post: str) -> ProgramText:
-    """The program of operations that share job, tool controller and machine, one after the other.
+def program_text(ops: Sequence[Any], post: str, arguments: str = "") -> ProgramText:
+    """The program of operations of one job, one after the other: ours, and CAM's own three-axis ones between them.
+    Machine and set-up are those of the first of ours; arguments: of the post, as post_arguments.py has them.
 
     It is read back and compared with the path before it is returned; what differs is among the warnings."""
-    if not ops:
+    ours = [op for op in ops if is_operation(op)]
+    if not ours:
         raise InputError("there is no active Multi-Point Finish operation to write a program for")
-    first = ops[0]
     for op in ops:
         _check_ready(op)
-        _check_same(first, op)
-    made = _make(first, post, _path(ops))
-    warnings = [f"{op.Label}: {op.Verdict}" for op in ops if not op.Good]
-    warnings += [f"{first.Machine}: {trouble}" for trouble in made.troubles]
-    return ProgramText(made.program.text, made.program.file_name, warnings)
+        _check_machine(ours[0], op)
+    job = _job(ours[0], post, parse(arguments))
+    place = shop.find_shop(job)
+    parts = [_part(job, place, group) for group in _groups(ops)]
+    text = place.post.write(*(part.program for part in parts))
+    warnings = [f"{op.Label}: {op.Verdict}" for op in ours if not op.Good]
+    troubles = [trouble for part in parts for trouble in part.joints.troubles()]
+    troubles += [] if troubles else _findings(text, job, place, parts)
+    warnings += [f"{ours[0].Machine}: {trouble}" for trouble in troubles]
+    return ProgramText(text, job.post.program_name + place.post.file_ending, warnings)
 
 
 def _check_ready(op: Any) -> None:
-    if op.Problem or not op.MoveStatus:
+    if is_operation(op) and (op.Problem or not op.MoveStatus):
         raise InputError(f"{op.Label}: there is no up-to-date path: {op.Problem or 'recompute it first'}")
     if op.ToolController.HorizFeed.Value <= 0 or op.ToolController.VertFeed.Value <= 0:
         raise InputError(f"{op.ToolController.Label}: the horizontal and vertical feed must be positive")
-    if op.ToolController.SpindleSpeed <= 0:
-        raise InputError(f"{op.ToolController.Label}: the spindle speed must be positive")
-
-
-def _check_same(first: Any, op: Any) -> None:
-    if op.ToolController != first.ToolController:
+    if op.ToolController.SpindleSpeed <= 0 or op.ToolController.SpindleDir != "Forward":
         raise InputError(
-            f"{op.Label}: must have the tool controller of {first.Label}: a program has one tool"
+            f"{op.ToolController.Label}: the spindle must turn forward, its speed must be positive"
         )
-    if op.Machine != first.Machine:
+
+
+def _check_machine(first: Any, op: Any) -> None:
+    if is_operation(op) and op.Machine != first.Machine:
         raise InputError(
             f"{op.Label}: must have the machine of {first.Label}, {first.Machine}; it has {op.Machine}"
         )
 
 
-def _make(op: Any, post: str, path: Path) -> shop.Made:
-    """What the core's shop makes of a path with the settings of `op`, which alone knows of coolant."""
+def _job(op: Any, post: str, arguments: PostArguments) -> Job:
     job = job_of(op, (), ())
-    job = replace(job, post=replace(job.post, name=post))
-    place = shop.find_shop(job)
-    joints = shop.move_machine(job, place, path)
-    program = replace(shop.describe(job, place, joints, _box(op)), coolant=op.CoolantMode != "None")
-    text = place.post.write(program)
-    file = ProgramFile(program.name + place.post.file_ending, text)
-    return shop.Made(joints, file, shop.check_text(text, program, path, place.post.dialect))
+    return replace(job, post=replace(job.post, name=post, tcp=arguments.tcp, options=arguments.options))
 
 
-def _path(ops: Sequence[Any]) -> Path:
-    """The stored moves of all operations as the core's path, in their order."""
+def _groups(ops: Sequence[Any]) -> list[list[Any]]:
+    """Operations that follow each other without a retract to the machine's own height: ours with one tool and
+    coolant."""
+    groups: list[list[Any]] = []
+    for op in ops:
+        before = groups[-1][0] if groups else None
+        if before is not None and is_operation(op) and is_operation(before) and _same_tool(before, op):
+            groups[-1].append(op)
+        else:
+            groups.append([op])
+    return groups
+
+
+def _same_tool(a: Any, b: Any) -> bool:
+    return a.ToolController == b.ToolController and a.CoolantMode == b.CoolantMode
+
+
+@dataclass(frozen=True)
+class _Part:
+    """What is written with one tool."""
+
+    path: Path
+    joints: MachinePath
+    program: Program
+
+
+def _part(job: Job, place: shop.Shop, ops: Sequence[Any]) -> _Part:
+    op = ops[0]
+    path, feeds = _path(ops) if is_operation(op) else _upright_path(op)
+    joints = shop.move_machine(job, place, path, feeds)
+    program = shop.describe(job, place, joints, _box(op))
+    coolant = COOLANT[getattr(op, "CoolantMode", "None")]
+    controller = op.ToolController
+    tool = ProgramTool(controller.ToolNumber, *compat.radii_of(controller.Tool))
+    options = replace(program.options, coolant=coolant)
+    spindle = float(controller.SpindleSpeed)
+    return _Part(path, joints, replace(program, tool=tool, spindle_rpm=spindle, options=options))
+
+
+def _findings(text: str, job: Job, place: shop.Shop, parts: Sequence[_Part]) -> list[str]:
+    """What reading the text back brings to light."""
+    tip, axis = (np.concatenate([getattr(part.path, name) for part in parts]) for name in ("tip", "axis"))
+    _, checks = shop.read_back(text, job, place.machine, tip, axis, place.post.dialect)
+    return shop.told(checks.findings)
+
+
+def _path(ops: Sequence[Any]) -> tuple[Path, np.ndarray]:
+    """The stored moves of our operations, in their order, as the core's path, and their feeds."""
     moves = [cl_path.from_commands(op.Path.Commands) for op in ops]
-    kind = np.concatenate([one.kind for one in moves])
+    joined = {name: np.concatenate([getattr(one, name) for one in moves]) for name in ("kind", "tip", "axis")}
+    feeds = np.concatenate([shop.feeds(post_of(op), one.kind) for op, one in zip(ops, moves)])
+    return _as_path(**joined), feeds
+
+
+def _upright_path(op: Any) -> tuple[Path, np.ndarray]:
+    """The moves of one of CAM's own operations, and their feeds."""
+    moves = three_axis.moves_of(op.Label, op.Path.Commands)
+    return _as_path(moves.kind, moves.tip, moves.axis), moves.feed_mm_per_min
+
+
+def _as_path(kind: np.ndarray, tip: np.ndarray, axis: np.ndarray) -> Path:
+    count = len(kind)
     return Path(
         kind=kind,
-        tip=np.concatenate([one.tip for one in moves]),
-        axis=np.concatenate([one.axis for one in moves]),
-        position=np.full(len(kind), NO_POSITION),
-        pass_index=np.concatenate([one.pass_index for one in moves]),
-        clearance=np.full(len(kind), np.nan),
-        blocked=np.zeros(len(kind), dtype=bool),
+        tip=tip,
+        axis=axis,
+        position=np.full(count, NO_POSITION),
+        pass_index=np.zeros(count, dtype=np.int64),
+        clearance=np.full(count, np.nan),
+        blocked=np.zeros(count, dtype=bool),
     )
 
 

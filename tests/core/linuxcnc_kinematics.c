@@ -1,7 +1,8 @@
 /* Runs a kinematics module of LinuxCNC as it is shipped, outside LinuxCNC and without real time.
  *
- * linuxcnc_kinematics MODULE.so COORDINATES forward|inverse [PIN=VALUE ...]   with lines of nine numbers on stdin:
+ * linuxcnc_kinematics MODULE.so COORDINATES forward|inverse TYPE [PIN=VALUE ...]   with lines of nine numbers on stdin:
  * joints in the order of COORDINATES (forward), or the pose x y z a b c u v w (inverse); one line of nine numbers each out.
+ * TYPE is the number of the kinematics, of those that the module can switch between.
  * The functions of HAL that a module calls are replaced: pins are doubles in a list. */
 #include <dlfcn.h>
 #include <stdarg.h>
@@ -47,6 +48,14 @@ void *hal_malloc(long size) { return calloc(1, size); }
 void rtapi_print(const char *format, ...) {}
 void rtapi_print_msg(int level, const char *format, ...) {}
 
+int rtapi_snprintf(char *text, unsigned long size, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  const int length = vsnprintf(text, size, format, arguments);
+  va_end(arguments);
+  return length;
+}
+
 static int set_pin(const char *assignment) {
   const char *equals = strchr(assignment, '=');
   for (int i = 0; equals && i < pin_count; ++i)
@@ -60,17 +69,20 @@ static int set_pin(const char *assignment) {
 }
 
 int main(int count, char **argument) {
-  if (count < 4) return 2;
+  if (count < 5) return 2;
   void *module = dlopen(argument[1], RTLD_NOW | RTLD_GLOBAL);
   if (!module) return fprintf(stderr, "%s\n", dlerror()), 2;
   char ***coordinates = dlsym(module, "rtapi_info_address_coordinates");
   if (coordinates) **coordinates = argument[2];
   int (*start)(void) = dlsym(module, "rtapi_app_main");
+  int (*type)(void) = dlsym(module, "kinematicsType");
   int (*select)(int) = dlsym(module, "kinematicsSwitch");
   int (*forward)(const double *, double *, const void *, void *) = dlsym(module, "kinematicsForward");
   int (*inverse)(const double *, double *, const void *, void *) = dlsym(module, "kinematicsInverse");
-  if (start() < 0 || (select && select(0))) return 2;
-  for (int i = 4; i < count; ++i)
+  if (start() < 0) return 2;
+  if (type) type();  // some make their pins only then
+  if (select && select(atoi(argument[4]))) return 2;
+  for (int i = 5; i < count; ++i)
     if (!set_pin(argument[i])) return 2;
 
   unsigned long flags[2] = {0, 0};

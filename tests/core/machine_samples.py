@@ -8,7 +8,7 @@ from freecad_mpm.core import machines
 from freecad_mpm.core.machine_path import machine_path
 from freecad_mpm.core.posts.program import Program, ProgramTool
 
-AXIS_TOLERANCE_DEG = 0.02
+AXIS_TOLERANCE_DEG, TIP_TOLERANCE_MM = 0.02, 0.0025
 
 
 def directions(tilt_deg, azimuth_deg):
@@ -37,11 +37,18 @@ def dmu80p():
     return machines.load("dmu80p")
 
 
-def program_of(kind, tip, axis, feed, machine=None, **changes):
+def program_of(kind, tip, axis, feed, machine=None, tcp=True, **changes):
+    """tcp: False: a program of joint positions, its tip within TIP_TOLERANCE_MM of its lines."""
     machine = machine or dmu80p()
-    moves = machine_path(machine, kind, tip, axis, feed, axis_tolerance_deg=AXIS_TOLERANCE_DEG)
+    tip_tolerance = None if tcp else TIP_TOLERANCE_MM
+    moves = machine_path(
+        machine, kind, tip, axis, feed, axis_tolerance_deg=AXIS_TOLERANCE_DEG, tip_tolerance_mm=tip_tolerance
+    )
+    setup = machine.setup
+    datum = np.array(setup.part_origin_mm) + [0.0, 0.0, setup.tool_length_mm]
     blank = (np.array([-5.0, -5.0, -25.0]), np.array([85.0, 59.0, 25.0]))
     program = Program("MPM01", machine, ProgramTool(1, 12.7, 6.0), 8000, moves, blank=blank)
+    program = program if tcp else replace(program, axes_mm=moves.linear_mm - datum)
     return replace(program, **changes)
 
 

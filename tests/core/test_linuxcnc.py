@@ -1,87 +1,43 @@
 """LinuxCNC as an independent reader and kinematician: its interpreter runs our program, its modules agree with us.
 
-It needs Debian's linuxcnc-uspace, which ./dev does not install (110 packages with what it needs). It is used where it is
-installed, or unpacked with libboost-python1.74.0 (dpkg -x) into the folder that MPM_LINUXCNC names; elsewhere this is
-skipped."""
+The whole chain on many blocks: MPM_LINUXCNC_BLOCKS=100000 ./dev test tests/core/test_linuxcnc.py"""
 
 import os
 import re
-import subprocess
-from pathlib import Path
+from dataclasses import replace
+from functools import cache
 
+import linuxcnc
 import numpy as np
 import pytest
-from machine_samples import program_of, two_passes, with_rotary
+from linuxcnc import MODULE_OF, TOOL_LENGTH_MM
+from machine_samples import directions, program_of, two_passes, with_rotary
 
 from freecad_mpm.core import dialects, machines, posts
+from freecad_mpm.core.posts.options import PostOptions
 
-ROOT = Path(os.environ.get("MPM_LINUXCNC", "/"))
-RS274 = ROOT / "usr/bin/rs274"
-MODULES = ROOT / "usr/lib/linuxcnc/modules"
-LIBRARIES = f"{ROOT / 'usr/lib'}:{ROOT / 'usr/lib/x86_64-linux-gnu'}"
+pytestmark = pytest.mark.skipif(not linuxcnc.THERE, reason=linuxcnc.MISSING)
 
-pytestmark = pytest.mark.skipif(
-    not RS274.exists(), reason="linuxcnc-uspace is neither installed nor in MPM_LINUXCNC"
-)
-
-TOOL_LENGTH_MM = 120.0
 TIP_MM = AXIS_DEG = 1e-6
-SPINDLE_MM = 1000.0  # a second point of the tool's axis, so far along the spindle
-COUNT = 500
-TRUNNIONS = {"linuxcnc_xyzac": ("xyzac-trt-kins", "y"), "linuxcnc_xyzbc": ("xyzbc-trt-kins", "x")}
-SWITCH = "o<{0}> sub\nM68 E3 Q{1}\nM66 E0 L0\no<{0}> endsub\nM2\n"
-INI = """[RS274NGC]
-SUBROUTINE_PATH = .
-REMAP = M428 modalgroup=10 ngc=tcp_on
-REMAP = M429 modalgroup=10 ngc=tcp_off
-[TRAJ]
-LINEAR_UNITS = mm
-COORDINATES = XYZABC
-"""
+JOINTS = 500
+BLOCKS = int(os.environ.get("MPM_LINUXCNC_BLOCKS", 10_000))
+FINE = PostOptions(decimals=9)
 
 
-def run_rs274(folder, text):
-    """Exit status, canonical calls and complaints of LinuxCNC's interpreter, with a home of its own."""
-    (folder / "machine.ini").write_text(INI)
-    (folder / "tcp_on.ngc").write_text(SWITCH.format("tcp_on", 1))
-    (folder / "tcp_off.ngc").write_text(SWITCH.format("tcp_off", 0))
-    # the stand-alone interpreter reads its tool table in inches
-    (folder / "tool.tbl").write_text(f"T1 P1 Z{TOOL_LENGTH_MM / 25.4:.9f} D1.0\n")
-    (folder / "program.ngc").write_text(text)
-    command = [RS274, "-g", "-i", "machine.ini", "-t", "tool.tbl", "-v", "rs.var", "program.ngc", "calls.txt"]
-    done = subprocess.run(
-        command,
-        cwd=folder,
-        env={"HOME": str(folder), "LD_LIBRARY_PATH": LIBRARIES, "PATH": os.environ["PATH"]},
-        capture_output=True,
-        text=True,
-        timeout=60,
-        check=False,
-    )
-    return done.returncode, (folder / "calls.txt").read_text(), done.stderr
+def text_of(program):
+    return posts.load("linuxcnc").write(program)
 
 
 def program_text(name):
-    kind, tip, axis, feed = two_passes()
-    return posts.load("linuxcnc").write(program_of(kind, tip, axis, feed, machines.load(name)))
+    return text_of(program_of(*two_passes(), machines.load(name)))
 
 
-def moves_under_tcp(calls):
-    """(K, 6) ends of the canonical moves between M428 and M429, and whether each is a traverse."""
-    on = calls.index("SET_AUX_OUTPUT_VALUE(3,1.000000)")
-    off = calls.index("SET_AUX_OUTPUT_VALUE(3,0.000000)", on)
-    found = re.findall(r"STRAIGHT_(TRAVERSE|FEED)\(([^)]*)\)", calls[on:off])
-    return np.array([[float(v) for v in ends.split(",")] for _, ends in found]), [
-        kind == "TRAVERSE" for kind, _ in found
-    ]
-
-
-@pytest.mark.parametrize("name", TRUNNIONS)
+@pytest.mark.parametrize("name", MODULE_OF)
 def test_the_interpreter_moves_where_our_reader_says(tmp_path, name):
     text = program_text(name)
-    status, calls, complaints = run_rs274(tmp_path, text)
+    status, calls, complaints = linuxcnc.run_rs274(tmp_path, text)
     assert status == 0, complaints
-    theirs, traverses = moves_under_tcp(calls)
+    theirs, traverses = linuxcnc.moves_under_tcp(calls)
     ours = dialects.read(text).motion()
     known = ours.tcp & np.isfinite(ours.tip).all(axis=1)
     angles = np.column_stack([np.nan_to_num(ours.angles[letter]) for letter in "ABC"])
@@ -89,7 +45,7 @@ def test_the_interpreter_moves_where_our_reader_says(tmp_path, name):
     assert skipped == 1  # X and Y alone, where our reader does not know Z
     assert np.abs(theirs[skipped:] - np.hstack((ours.tip, angles))[known]).max() < 1e-9
     assert traverses[skipped:] == ours.rapid[known].tolist()
-    assert len(theirs) > 150
+    assert len(theirs) > 80
 
 
 @pytest.mark.parametrize(
@@ -102,85 +58,122 @@ def test_the_interpreter_moves_where_our_reader_says(tmp_path, name):
 )
 def test_the_interpreter_refuses_what_it_cannot_take(tmp_path, pattern, replacement, told):
     broken = re.sub(pattern, replacement, program_text("linuxcnc_xyzac"), count=1, flags=re.M)
-    status, _, complaints = run_rs274(tmp_path, broken)
+    status, _, complaints = linuxcnc.run_rs274(tmp_path, broken)
     assert status == 1 and told in complaints
+
+
+@pytest.mark.parametrize("tcp", [True, False])
+def test_the_interpreter_takes_all_options(tmp_path, tcp):
+    options = PostOptions(path_tolerance_mm=0.02, coolant="mist", decimals=6, comments=False)
+    program = replace(program_of(*two_passes(), machines.load("linuxcnc_xyzac"), tcp=tcp), options=options)
+    status, _, complaints = linuxcnc.run_rs274(tmp_path, text_of(program))
+    assert status == 0, complaints
 
 
 @pytest.fixture(scope="module")
 def driver(tmp_path_factory):
-    program = tmp_path_factory.mktemp("kinematics") / "linuxcnc_kinematics"
-    source = Path(__file__).with_name("linuxcnc_kinematics.c")
-    subprocess.run(["gcc", "-O1", "-rdynamic", source, "-o", program, "-ldl", "-lm"], check=True)
-    return program
+    return linuxcnc.build_driver(tmp_path_factory.mktemp("kinematics"))
 
 
-def run_module(driver, machine, direction, numbers):
-    """(N, 9) of the shipped module for (N, up to 9), with the offsets of our machine file."""
-    module, beside = TRUNNIONS[machine.name]
-    tilt = machine.rotary_axes[1]
-    offset = {"x": tilt.joint_origin_mm[0], "y": tilt.joint_origin_mm[1], "z": tilt.joint_origin_mm[2]}
-    pins = {f"{beside}-offset": offset[beside], "z-offset": offset["z"], "tool-offset": TOOL_LENGTH_MM}
-    lines = np.zeros((len(numbers), 9))
-    lines[:, : numbers.shape[1]] = numbers
-    done = subprocess.run(
-        [driver, MODULES / f"{module}.so", f"XYZ{tilt.name}C", direction]
-        + [f"{module}.{pin}={value}" for pin, value in pins.items()],
-        input="\n".join(" ".join(f"{v:.17g}" for v in line) for line in lines),
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    return np.array([[float(v) for v in line.split()] for line in done.stdout.splitlines()])
-
-
-def random_joints():
+def random_joints(machine):
     random = np.random.default_rng(7)
-    return np.hstack((random.uniform(-200, 200, (COUNT, 3)), random.uniform(-170, 170, (COUNT, 2))))
-
-
-def their_pose(driver, machine, joints):
-    """Tip and axis. Their pose holds the tool's length in Z; the axis is what a move along the spindle does."""
-    pose = run_module(driver, machine, "forward", joints)
-    further = run_module(driver, machine, "forward", joints + [0, 0, SPINDLE_MM, 0, 0])
-    return pose[:, :3] - [0, 0, TOOL_LENGTH_MM], (further - pose)[:, :3] / SPINDLE_MM
+    linear, rotary = random.uniform(-200, 200, (JOINTS, 3)), random.uniform(-170, 170, (JOINTS, 2))
+    return linear, rotary, linuxcnc.joints_of(machine, linear, rotary)
 
 
 def angle_deg(a, b):
-    return np.degrees(np.linalg.norm(np.cross(a, b), axis=1))
+    return np.degrees(np.arctan2(np.linalg.norm(np.cross(a, b), axis=1), np.einsum("ij,ij->i", a, b)))
 
 
-@pytest.mark.parametrize("name", TRUNNIONS)
+@pytest.mark.parametrize("name", MODULE_OF)
 def test_forward_kinematics_agree(driver, name):
-    machine, joints = machines.load(name), random_joints()
-    tip, axis = machine.chain().forward(joints[:, :3], joints[:, [4, 3]], tool_length_mm=TOOL_LENGTH_MM)
-    their_tip, their_axis = their_pose(driver, machine, joints)
+    machine = machines.load(name)
+    linear, rotary, joints = random_joints(machine)
+    tip, axis = machine.chain().forward(linear, rotary, tool_length_mm=TOOL_LENGTH_MM)
+    their_tip, their_axis = linuxcnc.tip_and_axis(driver, machine, joints)
     assert np.abs(tip - their_tip).max() < TIP_MM
-    assert np.einsum("ij,ij->i", axis, their_axis).min() > 0
     assert angle_deg(axis, their_axis).max() < AXIS_DEG
 
 
-@pytest.mark.parametrize("name", TRUNNIONS)
-def test_a_turned_sense_is_seen_in_the_axis(driver, name):
-    machine, joints = machines.load(name), random_joints()
-    turned = with_rotary(machine, 0, sense=1).chain()
-    _, axis = turned.forward(joints[:, :3], joints[:, [4, 3]], tool_length_mm=TOOL_LENGTH_MM)
-    assert np.median(angle_deg(axis, their_pose(driver, machine, joints)[1])) > 10
-
-
-@pytest.mark.parametrize("name", TRUNNIONS)
-def test_a_posted_program_takes_their_machine_where_the_path_goes(driver, name):
-    """Text -> our reader -> their inverse -> their forward: tip and axis of the path, but for the words' rounding."""
+@pytest.mark.parametrize("name", MODULE_OF)
+def test_inverse_kinematics_agree(driver, name):
     machine = machines.load(name)
-    motion = dialects.read(program_text(name)).motion()
-    cuts = motion.tcp & ~motion.rapid
-    pose = np.zeros((np.count_nonzero(cuts), 6))
-    pose[:, :3] = motion.tip[cuts] + [0, 0, TOOL_LENGTH_MM]
-    pose[:, 3:] = np.column_stack([np.nan_to_num(motion.angles[letter][cuts]) for letter in "ABC"])
-    joints = run_module(driver, machine, "inverse", pose)[:, :5]
-    tip, axis = their_pose(driver, machine, joints)
-    assert np.abs(tip - motion.tip[cuts]).max() < TIP_MM
-    _, wanted_tip, wanted_axis, _ = two_passes()
-    for index in range(len(wanted_tip)):
-        near = np.flatnonzero(np.abs(tip - wanted_tip[index]).max(axis=1) < 1e-4)
-        if two_passes()[0][index] == "cut":
-            assert len(near) and angle_deg(axis[near], wanted_axis[[index]]).min() < 1e-4
+    linear, rotary, joints = random_joints(machine)
+    tip, _ = machine.chain().forward(linear, rotary, tool_length_mm=TOOL_LENGTH_MM)
+    angles = dict(zip(machine.rotary_letters, rotary.T))
+    abc = np.column_stack([angles.get(letter, np.zeros(JOINTS)) for letter in "ABC"])
+    theirs = linuxcnc.run_module(driver, machine, "inverse", linuxcnc.pose_of(tip, abc))
+    assert np.abs(theirs[:, : joints.shape[1]] - joints).max() < TIP_MM
+
+
+@pytest.mark.parametrize("index", [0, 1])
+@pytest.mark.parametrize("name", MODULE_OF)
+def test_a_turned_sense_is_seen_in_the_axis(driver, name, index):
+    machine = machines.load(name)
+    linear, rotary, joints = random_joints(machine)
+    turned = with_rotary(machine, index, sense=-machine.rotary_axes[index].sense).chain()
+    _, axis = turned.forward(linear, rotary, tool_length_mm=TOOL_LENGTH_MM)
+    assert np.median(angle_deg(axis, linuxcnc.tip_and_axis(driver, machine, joints)[1])) > 10
+
+
+@cache
+def long_path():
+    """kind, tip, axis, feed of one long wavy cut, its tilt from 4 to 24 degrees; the azimuth goes round and back."""
+    s = np.linspace(0.0, 1.0, BLOCKS)
+    tip = np.column_stack((80 * np.cos(40 * s), 60 * np.sin(37 * s), 10 * np.sin(90 * s)))
+    axis = directions(14 + 10 * np.sin(31 * s), 150 * np.sin(60 * s))
+    kind = np.where(np.arange(BLOCKS) == 0, "rapid", "cut")
+    return kind, tip, axis, np.full(BLOCKS, 1500.0)
+
+
+def long_program(machine, tcp=True):
+    return replace(program_of(*long_path(), machine, tcp=tcp), options=FINE)
+
+
+def at_their_joints(driver, machine, program, folder, tcp):
+    """Text -> their interpreter -> their joints: by their inverse, or as programmed. Without the opening and the
+    closing."""
+    moves, _, under_tcp = linuxcnc.canonical_moves(folder, text_of(program))
+    if tcp:
+        poses = moves[under_tcp][-len(program.moves) :]
+        joints = linuxcnc.run_module(driver, machine, "inverse", linuxcnc.pose_of(poses[:, :3], poses[:, 3:]))
+        return joints[:, : len(MODULE_OF[machine.name].joints)]
+    words = moves[-len(program.moves) - 2 : -2]  # Z up and the rotary axes to zero come last
+    linear = words[:, :3] + machine.setup.part_origin_mm + [0.0, 0.0, TOOL_LENGTH_MM]
+    return linuxcnc.joints_of(machine, linear, words[:, [3 + "ABC".index(k) for k in machine.rotary_letters]])
+
+
+@pytest.mark.parametrize("name", MODULE_OF)
+def test_the_whole_chain_under_tcp(driver, tmp_path, name):
+    """Path -> text -> their interpreter -> their inverse -> their forward: the path's tip and axis in every block."""
+    machine = machines.load(name)
+    program = long_program(machine)
+    joints = at_their_joints(driver, machine, program, tmp_path, tcp=True)
+    tip, axis = linuxcnc.tip_and_axis(driver, machine, joints)
+    assert len(tip) >= BLOCKS
+    assert np.abs(tip - program.moves.tip).max() < TIP_MM
+    assert angle_deg(axis, program.moves.axis).max() < AXIS_DEG
+
+
+@pytest.mark.parametrize("name", MODULE_OF)
+def test_the_whole_chain_of_joint_positions(driver, tmp_path, name):
+    """Path -> text -> their interpreter -> their forward."""
+    machine = machines.load(name)
+    program = long_program(machine, tcp=False)
+    joints = at_their_joints(driver, machine, program, tmp_path, tcp=False)
+    tip, axis = linuxcnc.tip_and_axis(driver, machine, joints)
+    assert len(tip) >= BLOCKS
+    assert np.abs(tip - machine.setup.part_origin_mm - program.moves.tip).max() < TIP_MM
+    assert angle_deg(axis, program.moves.axis).max() < AXIS_DEG
+
+
+@pytest.mark.parametrize("name", MODULE_OF)
+def test_a_program_for_a_turned_axis_takes_their_tool_astray(driver, tmp_path, name):
+    """Under TCP the tip is still right: only the axis tells."""
+    machine = machines.load(name)
+    turned = with_rotary(machine, 0, sense=-machine.rotary_axes[0].sense)
+    program = replace(program_of(*two_passes(), turned), options=FINE)
+    joints = at_their_joints(driver, machine, program, tmp_path, tcp=True)
+    tip, axis = linuxcnc.tip_and_axis(driver, machine, joints)
+    assert np.abs(tip - program.moves.tip).max() < TIP_MM
+    assert angle_deg(axis, program.moves.axis).max() > 5

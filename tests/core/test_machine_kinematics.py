@@ -36,6 +36,12 @@ def axis_nutating(c, b):
     return np.column_stack((cos_c * u - sin_c * v, sin_c * u + cos_c * v, w))
 
 
+def axis_ab(a, b):
+    """Table A about X that carries a table B about Y."""
+    (sin_a, cos_a), (sin_b, cos_b) = sc(a), sc(b)
+    return np.column_stack((sin_b, -sin_a * cos_b, cos_a * cos_b))
+
+
 CLOSED_FORM = {
     "dmu80p": axis_nutating,
     "dmu80p_ac": axis_ac,
@@ -46,6 +52,8 @@ CLOSED_FORM = {
     "head_b_table_c": axis_bc,
     "head_ca": axis_ac,
     "head_cb": axis_bc,
+    "linuxcnc_5axis": lambda c, b: axis_bc(c, -b),
+    "linuxcnc_xyzab": axis_ab,
     "linuxcnc_xyzac": lambda c, a: axis_ac(-c, -a),
     "linuxcnc_xyzbc": lambda c, b: axis_bc(-c, -b),
 }

@@ -10,7 +10,8 @@ from machine_samples import dmu80p, program_of, two_passes
 
 from freecad_mpm.core import posts
 from freecad_mpm.core.errors import InputError
-from freecad_mpm.core.posts.dmu80p import Options, write
+from freecad_mpm.core.posts.dmu80p import write
+from freecad_mpm.core.posts.options import PostOptions
 from freecad_mpm.core.posts.program import Moves, Program, ProgramTool, program_name
 
 # A short program of the 45 degree head, tilts of 12 to 14 degrees, with its joint values given.
@@ -132,9 +133,8 @@ def test_block_numbers_stay_below_the_end_block(moves, step):
 def test_a_program_that_is_too_long_is_refused():
     with pytest.raises(InputError, match="do not fit below the end block N999999"):
         write(example(moves=moves_of(999_990)))
-    assert write(example(moves=moves_of(999_990)), Options(end_block=99_999_999)).endswith(
-        "N99999999 %MPM01 G71 *\r\n"
-    )
+    longer = example(moves=moves_of(999_990), options=PostOptions(end_block=99_999_999))
+    assert write(longer).endswith("N99999999 %MPM01 G71 *\r\n")
 
 
 def test_hundred_thousand_moves_take_about_a_second():
@@ -146,7 +146,7 @@ def test_hundred_thousand_moves_take_about_a_second():
 
 
 def test_coolant_and_blank_are_left_out_on_request():
-    text = write(example(coolant=False, blank=None))
+    text = write(example(options=PostOptions(coolant="off"), blank=None))
     assert "M8" not in text and "G30" not in text and "N30 G00 G40 G90 Z-1 M91 *" in text
 
 

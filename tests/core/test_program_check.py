@@ -9,6 +9,8 @@ from machine_samples import directions, dmu80p, program_of, two_passes, with_rot
 
 from freecad_mpm.core import program_report
 from freecad_mpm.core.cl_walk import Walk, angle_deg
+from freecad_mpm.core.control import Control
+from freecad_mpm.core.dialects.din_iso import read
 from freecad_mpm.core.posts.dmu80p import write
 from freecad_mpm.core.program_check import (
     check_continuity,
@@ -18,11 +20,10 @@ from freecad_mpm.core.program_check import (
     check_round_trip,
     check_state,
 )
-from freecad_mpm.core.program_reader import read
 
 KIND, TIP, AXIS, FEED = two_passes()
 GOOD = write(program_of(KIND, TIP, AXIS, FEED))
-SETUP = ((0.0, 0.0, 100.0), 150.0)
+SETUP = Control(part_origin_mm=(0.0, 0.0, 100.0), tool_length_mm=150.0)
 
 
 def broken(pattern, replacement, text=GOOD, count=1):
@@ -190,14 +191,14 @@ def test_inserted_blocks_must_lie_on_the_way():
 
 
 def test_limits_of_every_axis_are_checked():
-    assert check_limits(read(GOOD), dmu80p(), *SETUP) == []
-    findings = check_limits(read(GOOD), with_rotary(dmu80p(), 1, max_limit_deg=25.0), *SETUP)
+    assert check_limits(read(GOOD), dmu80p(), SETUP) == []
+    findings = check_limits(read(GOOD), with_rotary(dmu80p(), 1, max_limit_deg=25.0), SETUP)
     assert findings and all("B goes to" in finding.message for finding in findings)
     for k, letter in enumerate("XYZ"):
         axes = list(dmu80p().linear_axes)
         middle = 0.5 * (axes[k].min_limit_mm + axes[k].max_limit_mm) - 110.0 * (k == 2)
         axes[k] = replace(axes[k], max_limit_mm=middle)
-        findings = check_limits(read(GOOD), replace(dmu80p(), linear_axes=tuple(axes)), *SETUP)
+        findings = check_limits(read(GOOD), replace(dmu80p(), linear_axes=tuple(axes)), SETUP)
         assert findings and all(f"{letter} goes to" in finding.message for finding in findings)
 
 
@@ -210,7 +211,7 @@ def test_limits_are_checked_along_the_arc_of_a_turn():
     axes[1] = replace(axes[1], min_limit_mm=-150.0, max_limit_mm=350.0)
     machine = replace(dmu80p(), linear_axes=tuple(axes))
     number = next(block.number for block in half_turn.blocks if "C+175" in block.text)
-    findings = check_limits(half_turn, machine, (250.0, 0.0, 100.0), 150.0)
+    findings = check_limits(half_turn, machine, Control(part_origin_mm=(250.0, 0.0, 100.0)))
     assert number in [finding.block for finding in findings]
 
 
@@ -302,7 +303,7 @@ def test_rotary_axes_that_cannot_follow_take_longer():
     axis = directions(20.0, [0.0, 90.0])
     program = program_of(np.array(["rapid", "cut"]), tip, axis, np.full(2, 1000.0))
     report = program_report.report(program, 0, check_program(read(write(program)), dmu80p()))
-    assert report.time_s["cut"] == pytest.approx(90.0 / 7200.0 * 60.0, rel=0.01)
+    assert report.time_s["cut"] == pytest.approx(90.0 / 120.0 + 120.0 / 360.0, rel=0.01)  # d / v + v / a
 
 
 @pytest.mark.parametrize(

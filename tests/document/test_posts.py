@@ -13,7 +13,7 @@ from stock_post import post_process
 import freecad_mpm
 from freecad_mpm.core import machines
 from freecad_mpm.core import posts as core_posts
-from freecad_mpm.core import program_reader
+from freecad_mpm.core.dialects import din_iso
 from freecad_mpm.core.errors import InputError
 from freecad_mpm.core.program_check import check_round_trip
 from freecad_mpm.document import cl_path, compat, posts, program
@@ -51,7 +51,7 @@ def test_freecads_command_writes_what_ours_writes(op: Any, job: Any, tmp_path: P
 
 
 def test_the_program_takes_the_tool_where_the_path_does(op: Any, job: Any, tmp_path: Path) -> None:
-    read = program_reader.read(post_process(job, tmp_path / "stock.I").decode("ascii"))
+    read = din_iso.read(post_process(job, tmp_path / "stock.I").decode("ascii"))
     moves = cl_path.from_commands(op.Path.Commands)
     trip = check_round_trip(read, machines.load(op.Machine), moves.tip, moves.axis)
     assert trip.findings == []
@@ -107,20 +107,20 @@ def test_a_feed_of_zero_is_refused(op: Any, tmp_path: Path) -> None:
         program.write(op, str(tmp_path / "program.I"))
 
 
-def test_operations_of_another_kind_are_refused(op: Any, job: Any) -> None:
+def test_a_program_needs_one_of_our_operations(op: Any) -> None:
     module = pytest.importorskip("freecad_mpm.document.posts.dmu80p_post")
     foreign = op.Document.addObject("Path::FeaturePython", "Engrave")
     foreign.addProperty("App::PropertyLink", "ToolController")
-    with pytest.raises(
-        InputError, match="Engrave: the post dmu80p writes Multi-Point Finish operations only"
-    ):
-        module.export([op, foreign], "-", "")
+    with pytest.raises(InputError, match="there is no active Multi-Point Finish operation"):
+        module.export([foreign], "-", "")
 
 
-def test_operations_with_two_tools_are_refused(doc: Any, block: Any, op: Any) -> None:
+def test_two_tools_are_two_tool_calls(doc: Any, block: Any, op: Any) -> None:
     other = freecad_mpm.create(doc, [(block, TOP)], major_radius_mm=3, minor_radius_mm=1, **COARSE)
-    with pytest.raises(InputError, match="must have the tool controller of MultiPointFinish"):
-        program.program_text([op, other], "dmu80p")
+    other.ToolController.ToolNumber = 7
+    result = program.program_text([op, other], "tnc_klartext")
+    numbers = [int(line.split()[3]) for line in result.text.split("\r\n") if " TOOL CALL " in line]
+    assert numbers == [op.ToolController.ToolNumber, 7] and result.warnings == []
 
 
 def test_an_unwritable_folder_is_named(op: Any) -> None:

@@ -5,15 +5,14 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
-from .. import program_reader
 from ..errors import InputError
 from ..program_reader import ParsedProgram
-from . import apt, gcode, klartext
+from . import apt, din_iso, gcode, klartext
 
 Reader = Callable[[str], ParsedProgram]
 
 READERS: dict[str, Reader] = {
-    "din_iso": program_reader.read,
+    "din_iso": din_iso.read,
     "klartext": klartext.read,
     "linuxcnc": gcode.read_linuxcnc,
     "sinumerik": gcode.read_sinumerik,
@@ -26,8 +25,8 @@ _SIGNS = {
     "klartext": r"\A\s*0 BEGIN PGM",
     "apt": r"\APARTNO",
     "sinumerik": r"\bTRA(?:ORI|FOOF)\b",
-    "fanuc": r"\bG43\.[45]\b",
-    "linuxcnc": r"\bM42[89]\b",
+    "fanuc": r"\A%\r?\nO\d",
+    "linuxcnc": r"\A\([A-Z0-9_]+ - ",
 }
 
 

@@ -11,8 +11,9 @@ from .state import Grammar, Line, blocks_of, text_lines
 _NUMBER = r"-?\d+\.\d*"
 _GOTO = re.compile(rf"GOTO/({_NUMBER}(?:,{_NUMBER}){{5}})")
 _FEED = re.compile(rf"FEDRAT/MMPM,({_NUMBER})")
+_TOOL = re.compile(r"LOADTL/(\d+)")
 _SPINDLE = re.compile(r"SPINDL/(?:RPM,\d+,CLW|OFF)")
-_OTHER = re.compile(r"PARTNO/\w+|PPRINT/.*|UNITS/MM|MULTAX/ON|LOADTL/\d+|COOLNT/(?:ON|OFF)|RAPID|FINI")
+_OTHER = re.compile(r"PARTNO/\w+|PPRINT/.*|UNITS/MM|MULTAX/ON|COOLNT/(?:ON|OFF)|RAPID|STOP|FINI")
 
 
 def read(text: str) -> ParsedProgram:
@@ -37,13 +38,15 @@ def _lines(rows: list[str]) -> Iterator[Line]:
     rapid = False
     for row in rows:
         line = Line(row, absolute=True, compensation_off=True)
-        goto, feed = _GOTO.fullmatch(row), _FEED.fullmatch(row)
+        goto, feed, tool = _GOTO.fullmatch(row), _FEED.fullmatch(row), _TOOL.fullmatch(row)
         if goto:
             x, y, z, i, j, k = (float(value) for value in goto[1].split(","))
             line.words, line.axis, line.rapid = {"X": x, "Y": y, "Z": z}, (i, j, k), rapid
             line.tcp = True  # a cutter location is the tip by definition
         elif feed:
             line.words = {"F": float(feed[1])}
+        elif tool:
+            line.words, line.tcp = {"T": float(tool[1])}, False
         elif _SPINDLE.fullmatch(row):
             line.m = (5,) if row.endswith("OFF") else (3,)
         elif not _OTHER.fullmatch(row):

@@ -22,6 +22,7 @@ class Rules:
     keywords: frozenset[str] = frozenset()
     vector: tuple[str, str, str] | None = None
     axis_number: re.Pattern[str] = re.compile(r"-?\d{1,6}(?:\.\d{0,8})?")
+    call: re.Pattern[str] | None = None  # of a cycle, in a block of its own
     datum_words: frozenset[str] = frozenset()  # coordinates of the machine's own in this block
 
 
@@ -29,11 +30,11 @@ def _codes(text: str) -> frozenset[str]:
     return frozenset(text.split())
 
 
-_PLAIN_M = frozenset((2, 3, 4, 5, 6, 8, 9, 30))
+_PLAIN_M = frozenset((0, 2, 3, 4, 5, 6, 7, 8, 9, 30))
 _MODES = "G17 G21 G40 G49 G80 G90 G94"
 _BRACKETS = re.compile(r"\([^()]*\)")
 LINUXCNC = Rules(
-    g=_codes(f"G0 G1 G43 G53 G54 G93 {_MODES}"),
+    g=_codes(f"G0 G1 G43 G53 G54 G61 G64 G93 {_MODES}"),
     m=_PLAIN_M | {428, 429},
     comment=_BRACKETS,
     tcp_on=_codes("M428"),
@@ -41,17 +42,18 @@ LINUXCNC = Rules(
     datum_words=_codes("G53"),
 )
 SINUMERIK = Rules(
-    g=_codes("G0 G1 G17 G40 G54 G71 G90 G94"),
+    g=_codes("G0 G1 G17 G40 G54 G71 G90 G93 G94"),
     m=_PLAIN_M,
     comment=re.compile(r";.*"),
     tcp_on=_codes("TRAORI"),
     tcp_off=_codes("TRAFOOF"),
     keywords=_codes("ORIWKS ORIMKS ORIAXES ORIVECT SUPA"),
     vector=("A3", "B3", "C3"),
+    call=re.compile(r"N\d+ CYCLE832\([\d.]+,_ORI_(?:FINISH|ROUGH),[\d.]+\)"),
     datum_words=_codes("SUPA"),
 )
 FANUC = Rules(
-    g=_codes(f"G0 G1 G28 G43.4 G43.5 G54 G91 {_MODES}"),
+    g=_codes(f"G0 G1 G28 G43 G43.4 G43.5 G54 G91 G93 {_MODES}"),
     m=_PLAIN_M,
     comment=_BRACKETS,
     tcp_on=_codes("G43.4 G43.5"),
@@ -62,7 +64,7 @@ FANUC = Rules(
 
 _WORD = re.compile(r"([A-Z]{2,}(?![\d=])|[A-Z]\d=|[A-Z])([+-]?[\d.]*)")
 _AXES = "XYZABC"
-_SINGLE = frozenset("NXYZABCIJKFSTHDO")
+_SINGLE = frozenset("NXYZABCIJKFSTHDOPQ")
 
 
 def read_linuxcnc(text: str) -> ParsedProgram:
@@ -73,7 +75,7 @@ def read_linuxcnc(text: str) -> ParsedProgram:
 
 def read_sinumerik(text: str) -> ParsedProgram:
     rows, grammar = text_lines(text, "\n")
-    blocks, wrong = blocks_of(_line(row, SINUMERIK) for row in rows)
+    blocks, wrong = blocks_of(_with_inverse_time(_line(row, SINUMERIK) for row in rows))
     grammar += wrong + rising_numbers(blocks) + _ending(rows, "M30")
     return ParsedProgram(_name(rows[0]), blocks, grammar)
 
@@ -82,7 +84,7 @@ def read_fanuc(text: str) -> ParsedProgram:
     rows, grammar = text_lines(text, "\r\n")
     if len(rows) < 3 or rows[0] != "%" or rows[-1] != "%" or not re.match(r"O\d{4}\b", rows[1]):
         grammar.append((None, rows[0], "the program must start with % and Onnnn and end with %"))
-    blocks, wrong = blocks_of(_line(row, FANUC) for row in rows[2:-1])
+    blocks, wrong = blocks_of(_with_inverse_time(_line(row, FANUC) for row in rows[2:-1]))
     return ParsedProgram(
         _name(rows[1] if len(rows) > 1 else ""), blocks, grammar + wrong + _ending(rows[:-1], "M30")
     )
@@ -113,6 +115,8 @@ def _with_inverse_time(lines: Iterator[Line]) -> Iterator[Line]:
 
 def _line(row: str, rules: Rules) -> Line:
     body = rules.comment.sub("", row).strip()
+    if rules.call and rules.call.fullmatch(body):
+        return Line(row, number=int(body[1 : body.index(" ")]))
     pairs = _WORD.findall(body)
     line = Line(row, wrong=_fault(body, pairs, rules))
     codes = [letter + value for letter, value in pairs]
@@ -128,7 +132,7 @@ def _line(row: str, rules: Rules) -> Line:
     line.machine_datum = bool(rules.datum_words & set(codes))
     if "G28" in codes:  # home, by way of where it stands
         line.lost = "".join(k for k in "XYZ" if k in line.words)
-        line.words = {}
+        line.words, line.machine_datum = {}, True
     if rules.vector and any(k in given for k in rules.vector):
         i, j, k = (float(given.get(name) or 0.0) for name in rules.vector)
         line.axis = (i, j, k)
@@ -161,7 +165,7 @@ def _word_fault(letter: str, value: str, rules: Rules) -> str:
         return "" if code in known else f"{code} is not a word of this control"
     if name not in _SINGLE and name not in (rules.vector or ()):
         return f"{code} is not a word of this control"
-    if name in _AXES or name in (rules.vector or ()) or name == "F":
+    if name in _AXES or name in (rules.vector or ()) or name in "FPQ":
         return "" if rules.axis_number.fullmatch(value) else f"{code}: its number is not one of this control"
     return "" if value.isdecimal() else f"{code}: must be a whole number"
 

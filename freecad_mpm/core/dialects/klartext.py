@@ -10,7 +10,7 @@ from .state import Grammar, Line, blocks_of, rising_numbers, text_lines
 _AXIS = r"[+-]\d{1,5}(?:\.\d{1,4})?"
 _UNIT = r"[+-][01](?:\.\d{1,8})?"
 _RATE = r"\d{1,5}(?:\.\d{1,3})?"
-_TAIL = rf"(?: R0)?(?: F(?:MAX|{_RATE}))?(?: M(?:3|4|5|8|9|13|30|91|92|126|127|128|129))*"
+_TAIL = rf"(?: R0)?(?: F(?:MAX|{_RATE}))?(?: M(?:3|4|5|7|8|9|13|30|91|92|126|127|128|129))*"
 _MOVE = re.compile(r"L" + "".join(rf"(?: {letter}{_AXIS})?" for letter in "XYZABC") + _TAIL)
 _VECTOR_MOVE = re.compile(
     "LN"
@@ -19,13 +19,15 @@ _VECTOR_MOVE = re.compile(
     + _TAIL
 )
 _TOOL = re.compile(rf"TOOL CALL \d{{1,5}} Z S{_RATE}(?: DL{_AXIS})?(?: DR{_AXIS})?")
-_LONE_M = re.compile(r"M(?:2|3|4|5|8|9|13|30|126|127|128|129)")
+_LONE_M = re.compile(r"M(?:0|2|3|4|5|8|9|13|30|126|127|128|129)")
 _TCPM = re.compile(
     r"FUNCTION TCPM F (?:TCP|CONT) AXIS (?:POS|SPAT) PATHCTRL (?:AXIS|VECTOR)|FUNCTION RESET TCPM"
 )
 _OTHER = re.compile(
     rf"; .*|BLK FORM 0\.1 Z X{_AXIS} Y{_AXIS} Z{_AXIS}|BLK FORM 0\.2 X{_AXIS} Y{_AXIS} Z{_AXIS}"
 )
+_TOLERANCE = re.compile(rf"CYCL DEF 32\.(?:0 TOLERANCE|1 T{_RATE}|2 HSC-MODE:[01] TA{_RATE})")
+_AXIAL_RETRACT = re.compile(r"L M140 MB MAX FMAX")  # along the tool, as far as the machine goes
 _WORD = re.compile(r"\b([TN]?[A-Z])([+-]?\d+(?:\.\d+)?)(?= |$)")
 _HEAD, _END = re.compile(r"BEGIN PGM ([A-Z0-9_]+) MM"), "END PGM {} MM"
 
@@ -55,10 +57,13 @@ def _blank_faults(forms: list[str]) -> Grammar:
 def _line(row: str) -> Line:
     number, _, body = row.partition(" ")
     line = Line(row, number=int(number) if number.isdecimal() else None, absolute=True)
-    known = (_MOVE, _VECTOR_MOVE, _TOOL, _LONE_M, _TCPM, _OTHER)
+    known = (_MOVE, _VECTOR_MOVE, _TOOL, _LONE_M, _TCPM, _TOLERANCE, _AXIAL_RETRACT, _OTHER)
     if line.number is None or not any(form.fullmatch(body) for form in known):
         line.wrong = "is no block of the control: words, their order or their numbers"
-    if body.startswith((";", "BLK")):
+    if body.startswith((";", "BLK", "CYCL")):
+        return line
+    if _AXIAL_RETRACT.fullmatch(body):
+        line.rapid_once, line.lost = True, "XYZ"
         return line
     if body.startswith("FUNCTION"):
         line.tcp = "RESET" not in body
@@ -66,7 +71,8 @@ def _line(row: str) -> Line:
     pairs = _WORD.findall(body)
     line.m = tuple(int(float(value)) for letter, value in pairs if letter == "M")
     line.words = {letter: float(value) for letter, value in pairs if letter in "XYZABCFS"}
-    line.tcp = True if 128 in line.m else False if 129 in line.m else None
+    line.tcp = True if 128 in line.m else None
+    line.tcp_ends = 129 in line.m
     if body.startswith("TOOL CALL"):
         line.words = {"T": float(body.split()[2]), "S": line.words.get("S", 0.0)}
     elif body.startswith("L"):

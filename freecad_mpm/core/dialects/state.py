@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-from ..program_reader import AXES, Block, State
+from ..program_reader import AXES, NOWHERE, Block, State
 
 Grammar = list[tuple[int | None, str, str]]  # block number, text, what is wrong
 Vector = tuple[float, float, float]
@@ -15,6 +15,7 @@ SPINDLE_ON, SPINDLE_OFF = {3, 4, 13}, {2, 5, 30}
 # A direction of seven decimals is a unit vector within this.
 LENGTH_SLACK = 1e-6
 NAN = float("nan")
+LINE_ENDS = {"\r\n": "carriage return and line feed", "\n": "a line feed alone"}
 
 
 @dataclass
@@ -31,6 +32,7 @@ class Line:
     absolute: bool | None = None
     compensation_off: bool = False
     tcp: bool | None = None
+    tcp_ends: bool = False  # off from the next block on
     machine_datum: bool = False
     lost: str = ""  # axes sent to places that the program does not name
     axis: Vector | None = None
@@ -50,6 +52,8 @@ def blocks_of(lines: Iterable[Line]) -> tuple[list[Block], Grammar]:
             grammar.append((line.number, line.text, wrong))
         if SPINDLE_OFF & set(line.m):
             state.spindle = False
+        if line.tcp_ends:
+            state.tcp = False
     return blocks, grammar
 
 
@@ -63,6 +67,7 @@ def _begin(state: State, line: Line, axis: Vector | None) -> Vector | None:
     state.feed = line.words.get("F", state.feed)
     turned = {letter for letter in "ABC" if letter in line.words}
     state.position = _position(state, line, bool(turned))
+    state.linear = NOWHERE if state.tcp else _linear(state, line)
     if line.axis is not None:
         return line.axis
     return None if turned or line.tcp is not None else axis
@@ -85,6 +90,20 @@ def _position(state: State, line: Line, turned: bool) -> tuple[float, ...]:
     return tuple(position)
 
 
+def _linear(state: State, line: Line) -> tuple[float, ...]:
+    """Where the linear axes stand at the end of the block, of a control that does not hold the tip."""
+    if not line.lost and not any(letter in line.words for letter in "XYZ"):
+        return state.linear
+    linear = list(state.linear)
+    for k, letter in enumerate("XYZ"):
+        if letter in line.words:
+            start = linear[k] if state.absolute is False else 0.0
+            linear[k] = NAN if line.machine_datum else start + line.words[letter]
+        if letter in line.lost:
+            linear[k] = NAN
+    return tuple(linear)
+
+
 def _block(state: State, line: Line, axis: Vector | None) -> Block:
     return Block(
         number=line.number,
@@ -99,8 +118,9 @@ def _block(state: State, line: Line, axis: Vector | None) -> Block:
         spindle=state.spindle,
         feed=state.feed,
         position=state.position,
+        linear=state.linear,
         axis=axis,
-        at_machine_datum=line.machine_datum or bool(line.lost),
+        machine_datum=line.machine_datum,
     )
 
 
@@ -117,8 +137,13 @@ def text_lines(text: str, line_end: str) -> tuple[list[str], Grammar]:
         wrong.append(
             (None, "", f"the file must be ASCII, it holds {next(c for c in text if not c.isascii())!r}")
         )
-    if not text.endswith(line_end) or text.count("\n") != text.count(line_end):
-        wrong.append((None, "", f"every line must end in {line_end!r}"))
+    ends = text.count(line_end)
+    if (
+        not text.endswith(line_end)
+        or text.count("\n") != ends
+        or text.count("\r") != ends * line_end.count("\r")
+    ):
+        wrong.append((None, "", f"every line must end in {LINE_ENDS[line_end]}"))
     return text.replace("\r\n", "\n").rstrip("\n").split("\n"), wrong
 
 

@@ -1,17 +1,20 @@
-"""Posts: each module of this package that has FILE_ENDING, DIALECT and write(program) is one, under its own name."""
+"""Posts: each module of this package that has FILE_ENDING, DIALECT, JOINTS, OPTIONS and write(first, *more) is one,
+under its own name."""
 
 from __future__ import annotations
 
 import pkgutil
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from importlib import import_module
+from typing import Any
 
 from ..errors import InputError
-from .program import Program
+from . import options
+from .options import PostOptions
 
 # Modules that posts share.
-_NOT_POSTS = {"program", "writing"}
+_NOT_POSTS = {"iso6983", "options", "program", "tnc", "writing"}
 
 
 @dataclass(frozen=True)
@@ -19,7 +22,13 @@ class Post:
     name: str
     file_ending: str  # with its dot, as the control expects it
     dialect: str  # of dialects.READERS: who reads the text back
-    write: Callable[[Program], str]
+    joints: bool  # whether it also writes joint positions, for a control without tool-centre-point control
+    option_names: frozenset[str]  # those of PostOptions that it reads
+    write: Callable[..., str]  # (first: Program, *more: Program): one program, each part of it with its tool
+
+    def options(self, table: Mapping[str, Any]) -> PostOptions:
+        """Raises InputError for an option that the post does not read, and for a wrong value."""
+        return options.read(table, self.option_names, self.name)
 
 
 def names() -> list[str]:
@@ -32,4 +41,4 @@ def load(name: str) -> Post:
     if name not in names():
         raise InputError(f"post '{name}': unknown; give one of {', '.join(names())}")
     module = import_module(f"{__name__}.{name}")
-    return Post(name, module.FILE_ENDING, module.DIALECT, module.write)
+    return Post(name, module.FILE_ENDING, module.DIALECT, module.JOINTS, module.OPTIONS, module.write)

@@ -1,74 +1,67 @@
-"""Fanuc 30i class: tool-centre-point control with rotary angles (G43.4) or with the tool's direction (G43.5)."""
+"""Fanuc 30i class: tool-centre-point control with rotary angles (G43.4) or the tool's direction (G43.5), or joints."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
-from typing import Literal
+from itertools import chain
 
+from . import iso6983
+from .iso6983 import axis_words, rotary_zero
 from .program import Program
-from .writing import (
-    LINEAR_DECIMALS,
-    PREPOSITION_MM,
-    VECTOR_DECIMALS,
-    Step,
-    description,
-    number,
-    rotary_zero,
-    steps,
-)
+from .writing import description, first_rotary, rotary_names
 
 FILE_ENDING = ".nc"
 DIALECT = "fanuc"
+JOINTS = True
+OPTIONS = iso6983.OPTIONS | {"program_number"}
+VECTOR = ("I", "J", "K")
 
 
-@dataclass(frozen=True)
-class Options:
-    orientation: Literal["angles", "vectors"] = "angles"
-    program_number: int = 1
+def write(first: Program, *more: Program, vectors: bool = False) -> str:
+    """Every number has a decimal point: without one the control reads thousandths. No block numbers. more: what follows
+    with other tools."""
+    comment = description(first) if first.options.comments else ""
+    head = f"O{first.options.program_number:04d} ({first.name} - {comment})"
+    sections = chain.from_iterable(_section(program, vectors) for program in (first, *more))
+    return "\r\n".join(["%", head, *sections, "M30", "%", ""])
 
 
-def write(program: Program, options: Options = Options()) -> str:
-    """Every number has a decimal point: without one the control reads thousandths. No block numbers."""
-    head = ["%", f"O{options.program_number:04d} ({program.name} - {description(program)})"]
-    moves = [_move(step, options) for step in steps(program)]
-    return "\r\n".join([*head, *_opening(program, options), *moves, *_closing(program), "%", ""])
+def _section(program: Program, vectors: bool) -> list[str]:
+    """All blocks with one tool."""
+    moves = iso6983.moves(program, "({})", VECTOR if vectors else None)
+    opening = _opening_tcp(program, vectors) if program.tcp else _opening_joints(program)
+    return [*_start(program), *opening, *moves, *_closing(program)]
 
 
-def _opening(program: Program, options: Options) -> list[str]:
-    first = next(steps(program))
-    x, y, z = first.tip
-    tool = program.tool.number
+def _start(program: Program) -> list[str]:
+    start = rotary_zero(program)
+    if not program.tcp:
+        start = axis_words(program, rotary_names(program), first_rotary(program))
+    coolant = program.options.coolant_word
     return [
         "G21 G17 G40 G49 G80 G90 G94",
         "G91 G28 Z0.",
-        f"T{tool} M6",
-        f"G90 G54 G0 {_words(rotary_zero(program))}",
-        f"S{program.spindle_rpm:.0f} M3",
-        *(["M8"] if program.coolant else []),
-        f"G0 X{number(x)} Y{number(y)}",
-        f"{'G43.5' if options.orientation == 'vectors' else 'G43.4'} H{tool} Z{number(z + PREPOSITION_MM)}",
-        f"G0 {_direction(first, options)}",
+        f"T{program.tool.number} M6",
+        f"G90 G54 G0 {start}",
+        f"S{program.spindle_rpm:.0f} {program.spindle_word}",
+        *([coolant] if coolant else []),
+        f"G0 {axis_words(program, 'XY', program.xyz_mm[0, :2])}",
     ]
 
 
-def _move(step: Step, options: Options) -> str:
-    words = ["G0" if step.rapid else "G1"]
-    words += [_words(zip("XYZ", step.tip))] if step.travels or not step.turns or not step.rapid else []
-    words += [_direction(step, options)] if step.turns else []
-    words += [f"F{number(step.feed)}"] if step.new_feed else []
-    return " ".join(words)
+def _opening_tcp(program: Program, vectors: bool) -> list[str]:
+    above = axis_words(program, "Z", (program.xyz_mm[0, 2] + program.options.preposition_mm,))
+    angles = axis_words(program, rotary_names(program), first_rotary(program))
+    return [
+        f"{'G43.5' if vectors else 'G43.4'} H{program.tool.number} {above}",
+        f"G0 {iso6983.vector_words(program, VECTOR) if vectors else angles}",
+    ]
 
 
-def _direction(step: Step, options: Options) -> str:
-    if options.orientation == "angles":
-        return _words(step.rotary)
-    return _words(zip("IJK", step.axis), VECTOR_DECIMALS)
+def _opening_joints(program: Program) -> list[str]:
+    z = axis_words(program, "Z", program.xyz_mm[0, 2:])
+    return [f"G43 H{program.tool.number} {z}", iso6983.INVERSE_TIME]
 
 
 def _closing(program: Program) -> list[str]:
-    return ["G49", "G91 G28 Z0.", f"G90 G0 {_words(rotary_zero(program))}", "M9", "M5", "M30"]
-
-
-def _words(pairs: Iterable[tuple[str, float]], decimals: int = LINEAR_DECIMALS) -> str:
-    return " ".join(f"{letter}{number(value, decimals)}" for letter, value in pairs)
+    per_minute = [] if program.tcp else [iso6983.PER_MINUTE]
+    return [*per_minute, "G49", "G91 G28 Z0.", f"G90 G0 {rotary_zero(program)}", "M9", "M5"]

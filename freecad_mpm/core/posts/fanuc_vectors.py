@@ -5,10 +5,9 @@ from __future__ import annotations
 from . import fanuc
 from .program import Program
 
-FILE_ENDING = fanuc.FILE_ENDING
-DIALECT = fanuc.DIALECT
-OPTIONS = fanuc.Options(orientation="vectors")
+FILE_ENDING, DIALECT, OPTIONS = fanuc.FILE_ENDING, fanuc.DIALECT, fanuc.OPTIONS
+JOINTS = False
 
 
-def write(program: Program) -> str:
-    return fanuc.write(program, OPTIONS)
+def write(first: Program, *more: Program) -> str:
+    return fanuc.write(first, *more, vectors=True)

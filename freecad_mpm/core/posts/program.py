@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
 from ..machines import Machine
+from .options import PostOptions
 
 Floats = NDArray[np.float64]
 Names = NDArray[np.str_]
@@ -74,8 +76,31 @@ class Program:
     tool: ProgramTool
     spindle_rpm: float
     moves: Moves
-    coolant: bool = True
     blank: tuple[Floats, Floats] | None = None
+    # (M, 3) X, Y and Z of each move for a control that moves the joints and knows nothing of the tip: the linear axes'
+    # readings less datum and tool length, so that with all rotary axes at zero they are the tip. None: the control holds
+    # the tip, and X, Y and Z are its coordinates.
+    axes_mm: Floats | None = None
+    options: PostOptions = PostOptions()
+    spindle_on: bool = True
+    stops: Mapping[int, str] = field(
+        default_factory=dict
+    )  # move after which the machine waits, and a comment
+
+    @property
+    def spindle_word(self) -> str:
+        """M3, or M5 for a program that only shows the way."""
+        return "M3" if self.spindle_on else "M5"
+
+    @property
+    def tcp(self) -> bool:
+        """Whether the control holds the tip (tool-centre-point control)."""
+        return self.axes_mm is None
+
+    @property
+    def xyz_mm(self) -> Floats:
+        """(M, 3) what the words X, Y and Z of each move say."""
+        return self.moves.tip if self.axes_mm is None else self.axes_mm
 
     def __post_init__(self) -> None:
         if not PROGRAM_NAME.fullmatch(self.name):
@@ -89,6 +114,8 @@ class Program:
             raise InputError(f"tool number: must be 1 or more, got {self.tool.number}")
         if len(self.moves) == 0 or self.moves.kind[0] != "rapid":
             raise InputError("moves: the first must be a rapid to a place clear of the part")
+        if self.axes_mm is not None:
+            _check_array("axes_mm", self.axes_mm, (len(self.moves), 3))
 
 
 def program_name(title: str) -> str:

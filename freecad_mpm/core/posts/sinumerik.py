@@ -1,86 +1,89 @@
-"""Siemens 840D: TRAORI with rotary angles (ORIAXES) or with the tool's direction as a vector (ORIVECT)."""
+"""Siemens 840D: TRAORI with rotary angles (ORIAXES) or the tool's direction as a vector (ORIVECT), or joint
+positions."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
-from typing import Literal
+from itertools import chain
 
+from . import iso6983
+from .iso6983 import axis_words, rotary_zero
 from .program import Program
-from .writing import (
-    LINEAR_DECIMALS,
-    PREPOSITION_MM,
-    VECTOR_DECIMALS,
-    Step,
-    description,
-    number,
-    rotary_zero,
-    steps,
-)
+from .writing import description, first_rotary, rotary_names
 
 FILE_ENDING = ".MPF"
 DIALECT = "sinumerik"
+JOINTS = True
+OPTIONS = iso6983.OPTIONS | {"path_tolerance_mm", "rotary_tolerance_deg", "smoothing"}
+VECTOR = ("A3=", "B3=", "C3=")
 
 
-@dataclass(frozen=True)
-class Options:
-    orientation: Literal["angles", "vectors"] = "angles"
+def write(first: Program, *more: Program, vectors: bool = False) -> str:
+    """The datum is G54; a rotary axis that goes over 360 degrees must not be a modulo axis of the control. more: what
+    follows with other tools."""
+    comment = description(first) if first.options.comments else ""
+    sections = chain.from_iterable(_section(program, vectors) for program in (first, *more))
+    numbered = [f"N{10 * i} {block}" for i, block in enumerate(chain(sections, ["M30"]), 1)]
+    return "\n".join([f"; {first.name} - {comment}", *numbered, ""])
 
 
-def write(program: Program, options: Options = Options()) -> str:
-    """The datum is G54; a rotary axis that goes over 360 degrees must not be a modulo axis of the control."""
-    blocks = [*_opening(program, options), *_moves(program, options), *_closing(program)]
-    return "\n".join([f"; {program.name} - {description(program)}", *_numbered(blocks), ""])
+def _section(program: Program, vectors: bool) -> list[str]:
+    """All blocks with one tool."""
+    moves = iso6983.moves(program, "; {}", VECTOR if vectors else None)
+    opening = _opening_tcp(program, vectors) if program.tcp else _opening_joints(program)
+    return [*_start(program), *opening, *moves, *_closing(program)]
 
 
-def _opening(program: Program, options: Options) -> list[str]:
-    first = next(steps(program))
-    x, y, z = first.tip
+def _start(program: Program) -> list[str]:
+    start = rotary_zero(program)
+    if not program.tcp:
+        start = axis_words(program, rotary_names(program), first_rotary(program))
     return [
         "G17 G40 G71 G90 G94",
         "TRAFOOF",
         _retract(program),
         f"T{program.tool.number} M6",
-        f"S{program.spindle_rpm:.0f} M3" + (" M8" if program.coolant else ""),
-        f"G54 D1 G0 {_words(rotary_zero(program))}",
-        "TRAORI",
-        "G54",
-        "ORIWKS ORIVECT" if options.orientation == "vectors" else "ORIMKS ORIAXES",
-        f"G0 X{number(x)} Y{number(y)}",
-        f"G0 Z{number(z + PREPOSITION_MM)}",
-        f"G0 {_direction(first, options)}",
+        " ".join(
+            filter(None, (f"S{program.spindle_rpm:.0f} {program.spindle_word}", program.options.coolant_word))
+        ),
+        *_tolerance(program),
+        f"G54 D1 G0 {start}",
     ]
 
 
-def _moves(program: Program, options: Options) -> Iterator[str]:
-    return (_move(step, options) for step in steps(program))
+def _opening_tcp(program: Program, vectors: bool) -> list[str]:
+    x, y, z = program.xyz_mm[0].tolist()
+    angles = axis_words(program, rotary_names(program), first_rotary(program))
+    return [
+        "TRAORI",
+        "G54",
+        "ORIWKS ORIVECT" if vectors else "ORIMKS ORIAXES",
+        f"G0 {axis_words(program, 'XY', (x, y))}",
+        f"G0 {axis_words(program, 'Z', (z + program.options.preposition_mm,))}",
+        f"G0 {iso6983.vector_words(program, VECTOR) if vectors else angles}",
+    ]
 
 
-def _move(step: Step, options: Options) -> str:
-    words = ["G0" if step.rapid else "G1"]
-    words += [_words(zip("XYZ", step.tip))] if step.travels or not step.turns or not step.rapid else []
-    words += [_direction(step, options)] if step.turns else []
-    words += [f"F{step.feed:g}"] if step.new_feed else []
-    return " ".join(words)
-
-
-def _direction(step: Step, options: Options) -> str:
-    if options.orientation == "angles":
-        return _words(step.rotary)
-    return _words(zip(("A3=", "B3=", "C3="), step.axis), VECTOR_DECIMALS)
+def _opening_joints(program: Program) -> list[str]:
+    x, y, z = program.xyz_mm[0].tolist()
+    return [
+        f"G0 {axis_words(program, 'XY', (x, y))}",
+        f"G0 {axis_words(program, 'Z', (z,))}",
+        iso6983.INVERSE_TIME,
+    ]
 
 
 def _closing(program: Program) -> list[str]:
-    return ["TRAFOOF", _retract(program), f"G0 {_words(rotary_zero(program))}", "M9", "M5", "M30"]
+    off = "TRAFOOF" if program.tcp else iso6983.PER_MINUTE
+    return [off, _retract(program), f"G0 {rotary_zero(program)}", "M9", "M5"]
 
 
 def _retract(program: Program) -> str:
-    return f"SUPA G0 Z{number(program.machine.setup.retract_z_mm)} D0"
+    return f"SUPA G0 {axis_words(program, 'Z', (program.machine.setup.retract_z_mm,))} D0"
 
 
-def _numbered(blocks: Iterable[str]) -> Iterator[str]:
-    return (f"N{10 * i} {block}" for i, block in enumerate(blocks, 1))
-
-
-def _words(pairs: Iterable[tuple[str, float]], decimals: int = LINEAR_DECIMALS) -> str:
-    return " ".join(f"{letter}{number(value, decimals)}" for letter, value in pairs)
+def _tolerance(program: Program) -> list[str]:
+    options = program.options
+    if not options.path_tolerance_mm:
+        return []
+    mode = "_ORI_FINISH" if options.smoothing == "finish" else "_ORI_ROUGH"
+    return [f"CYCLE832({options.path_tolerance_mm:g},{mode},{options.rotary_tolerance_deg:g})"]

@@ -5,10 +5,9 @@ from __future__ import annotations
 from . import sinumerik
 from .program import Program
 
-FILE_ENDING = sinumerik.FILE_ENDING
-DIALECT = sinumerik.DIALECT
-OPTIONS = sinumerik.Options(orientation="vectors")
+FILE_ENDING, DIALECT, OPTIONS = sinumerik.FILE_ENDING, sinumerik.DIALECT, sinumerik.OPTIONS
+JOINTS = False
 
 
-def write(program: Program) -> str:
-    return sinumerik.write(program, OPTIONS)
+def write(first: Program, *more: Program) -> str:
+    return sinumerik.write(first, *more, vectors=True)

@@ -1,101 +1,105 @@
-"""Klartext for a HEIDENHAIN TNC: tip coordinates and rotary angles under M128."""
+"""Klartext for a HEIDENHAIN TNC: tip coordinates and rotary angles under M128, or joint positions."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
-from typing import Literal
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import chain
 
-from .program import Program
-from .writing import (
-    LINEAR_DECIMALS,
-    PREPOSITION_MM,
-    VECTOR_DECIMALS,
-    Step,
-    description,
-    rotary_zero,
-    signed,
-    steps,
-)
+from . import tnc
+from .program import Floats, Program
+from .writing import VECTOR_DECIMALS, description, first_rotary, move_lines, rotary_names, with_stops, words
 
 FILE_ENDING = ".H"
 DIALECT = "klartext"
-MAX_BLANK_RATIO = 200.0  # the control's picture takes no blank with sides over this ratio
+JOINTS = True
+OPTIONS = tnc.OPTIONS
 
 
 @dataclass(frozen=True)
-class Options:
+class Form:
+    """What the posts for this dialect differ in."""
+
     tcp_on: str = "M128"
     tcp_off: str = "M129"
-    orientation: Literal["angles", "vectors"] = "angles"
+    vectors: bool = False
 
 
-def write(program: Program, options: Options = Options()) -> str:
-    """The program as text with CRLF line ends, ASCII, its blocks numbered from 0."""
-    name = program.name
-    blocks = [f"BEGIN PGM {name} MM", *_opening(program, options), *_moves(program, options)]
-    blocks += [*_closing(program, options), f"END PGM {name} MM"]
+def write(first: Program, *more: Program, form: Form = Form()) -> str:
+    """The program as text with CRLF line ends, ASCII, its blocks numbered from 0; more: what follows with other
+    tools."""
+    name = first.name
+    sections = chain.from_iterable(_section(program, form) for program in (first, *more))
+    blocks = [f"BEGIN PGM {name} MM", *_blank(first), *sections, "M30", f"END PGM {name} MM"]
     return "\r\n".join([*(f"{i} {block}" for i, block in enumerate(blocks)), ""])
 
 
-def _opening(program: Program, options: Options) -> list[str]:
-    first = next(steps(program))
-    x, y, z = first.tip
-    above = replace(first, tip=[x, y, z + PREPOSITION_MM], turns=True, travels=False)
-    return [
-        *_blank(program),
-        f"; {description(program)}",
-        options.tcp_off,
+def _section(program: Program, form: Form) -> list[str]:
+    """All blocks with one tool."""
+    style = tnc.style(program, *(("LN", "LN") if form.vectors else ("L", "L")), " FMAX", form.vectors)
+    moves = with_stops(program, move_lines(program, style), "M0", "; {}")
+    return [*_opening(program, form), *moves, *_closing(program, form)]
+
+
+def _opening(program: Program, form: Form) -> list[str]:
+    options, rotary = program.options, rotary_names(program)
+    x, y, z = program.xyz_mm[0].tolist()
+    start: Sequence[float] = (0.0, 0.0) if program.tcp else first_rotary(program)
+    above = z + options.preposition_mm if program.tcp else z
+    blocks = [
+        *([f"; {description(program)}"] if options.comments else []),
+        form.tcp_off,
         _retract(program),
         f"TOOL CALL {program.tool.number} Z S{program.spindle_rpm:.0f}",
-        f"L {_words(rotary_zero(program))} R0 FMAX M126",
-        f"L X{signed(x)} Y{signed(y)} R0 FMAX M3",
-        f"L Z{signed(z + PREPOSITION_MM)} R0 FMAX" + (" M8" if program.coolant else ""),
-        options.tcp_on,
-        _move(above, options),
+        *_tolerance(program),
+        f"L {_words(program, rotary, start)} R0 FMAX M126",
+        f"L {_words(program, 'XY', (x, y))} R0 FMAX {program.spindle_word}",
+        " ".join(filter(None, (f"L {_words(program, 'Z', (above,))} R0 FMAX", options.coolant_word))),
     ]
+    return blocks + ([form.tcp_on, _turn_above(program, form, (x, y, above))] if program.tcp else [])
 
 
-def _moves(program: Program, options: Options) -> Iterator[str]:
-    return (_move(step, options) for step in steps(program))
+def _turn_above(program: Program, form: Form, place: Sequence[float]) -> str:
+    """The first turn, over the first pose with the tip held."""
+    if not form.vectors:
+        return f"L {_words(program, rotary_names(program), first_rotary(program))} FMAX"
+    vector = words(("TX", "TY", "TZ"), program.moves.axis[0], tnc.VECTOR, VECTOR_DECIMALS)
+    return f"LN {_words(program, 'XYZ', place)} {vector} FMAX"
 
 
-def _move(step: Step, options: Options) -> str:
-    feed = " FMAX" if step.rapid else f" F{step.feed:g}" if step.new_feed else ""
-    tip = _words(zip("XYZ", step.tip))
-    if options.orientation == "vectors":
-        vector = _words(zip(("TX", "TY", "TZ"), step.axis), VECTOR_DECIMALS)
-        return f"LN {tip} {vector}{feed}"
-    words = [tip] if step.travels or not step.rapid else []
-    words += [_words(step.rotary)] if step.turns else []
-    return f"L {' '.join(words or [tip])}{feed}"
-
-
-def _closing(program: Program, options: Options) -> list[str]:
+def _closing(program: Program, form: Form) -> list[str]:
     return [
-        options.tcp_off,
+        *(["L M140 MB MAX FMAX"] if program.options.retract == "tool_axis" else []),
+        form.tcp_off,
         _retract(program),
-        f"L {_words(rotary_zero(program))} R0 FMAX M5",
-        "M30",
+        f"L {_words(program, rotary_names(program), (0.0, 0.0))} R0 FMAX M5",
     ]
 
 
 def _retract(program: Program) -> str:
-    return f"L Z{signed(program.machine.setup.retract_z_mm)} R0 FMAX M91"
+    return f"L {_words(program, 'Z', (program.machine.setup.retract_z_mm,))} R0 FMAX M91"
 
 
-def _blank(program: Program) -> list[str]:
-    if program.blank is None:
+def _tolerance(program: Program) -> list[str]:
+    """Cycle 32: how far the control may leave the path to go smoothly; TA is what its rotary axes may be off."""
+    options = program.options
+    if not options.path_tolerance_mm:
         return []
-    low, high = program.blank
-    sides = high - low
-    if sides.min() <= 0 or sides.max() >= MAX_BLANK_RATIO * sides.min():
-        return []
+    mode = 0 if options.smoothing == "finish" else 1
     return [
-        f"BLK FORM 0.1 Z {_words(zip('XYZ', low.tolist()))}",
-        f"BLK FORM 0.2 {_words(zip('XYZ', high.tolist()))}",
+        "CYCL DEF 32.0 TOLERANCE",
+        f"CYCL DEF 32.1 T{options.path_tolerance_mm:g}",
+        f"CYCL DEF 32.2 HSC-MODE:{mode} TA{options.rotary_tolerance_deg:g}",
     ]
 
 
-def _words(pairs: Iterable[tuple[str, float]], decimals: int = LINEAR_DECIMALS) -> str:
-    return " ".join(f"{letter}{signed(value, decimals)}" for letter, value in pairs)
+def _blank(program: Program) -> list[str]:
+    corners = tnc.blank(program)
+    if corners is None:
+        return []
+    heads = ("BLK FORM 0.1 Z", "BLK FORM 0.2")
+    return [f"{head} {_words(program, 'XYZ', corner)}" for head, corner in zip(heads, corners)]
+
+
+def _words(program: Program, names: Sequence[str], values: Floats | Sequence[float]) -> str:
+    return words(names, values, tnc.LENGTH, program.options.decimals)

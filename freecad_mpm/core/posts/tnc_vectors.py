@@ -5,10 +5,10 @@ from __future__ import annotations
 from . import tnc_klartext
 from .program import Program
 
-FILE_ENDING = tnc_klartext.FILE_ENDING
-DIALECT = tnc_klartext.DIALECT
-OPTIONS = tnc_klartext.Options(orientation="vectors")
+FILE_ENDING, DIALECT, OPTIONS = tnc_klartext.FILE_ENDING, tnc_klartext.DIALECT, tnc_klartext.OPTIONS
+JOINTS = False
+FORM = tnc_klartext.Form(vectors=True)
 
 
-def write(program: Program) -> str:
-    return tnc_klartext.write(program, OPTIONS)
+def write(first: Program, *more: Program) -> str:
+    return tnc_klartext.write(first, *more, form=FORM)

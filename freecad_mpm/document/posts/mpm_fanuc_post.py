@@ -15,7 +15,7 @@ UNITS = post_script.UNITS
 
 
 def export(objectslist: list[Any], filename: str, argstring: str) -> str:
-    return post_script.export(objectslist, filename, POST)
+    return post_script.export(objectslist, filename, POST, argstring)
 
 
 Mpm_Fanuc = post_script.post_class(POST, TOOLTIP)

@@ -187,10 +187,12 @@ py::dict refine_of(const KinematicChain& chain,
                    double tool_length_mm,
                    double pole_cone_deg,
                    double axis_tolerance_deg,
+                   double tip_tolerance_mm,
                    double max_rotary_step_deg) {
   const PosePath path = make_path(tip, axis, cutting);
   const RefineOptions options{{{part_origin_mm, tool_length_mm}, radians(pole_cone_deg)},
                               radians(axis_tolerance_deg),
+                              tip_tolerance_mm,
                               radians(max_rotary_step_deg)};
   RefinedPath refined;
   {
@@ -201,6 +203,7 @@ py::dict refine_of(const KinematicChain& chain,
   result["tip"] = from_vectors(refined.poses.tip);
   result["axis"] = from_vectors(refined.poses.axis);
   result["source"] = from_scalars(refined.source);
+  result["keeps"] = from_scalars(refined.keeps).attr("astype")("bool");
   return result;
 }
 
@@ -290,10 +293,14 @@ void bind_machine(py::module_& m) {
         py::arg("tool_length_mm") = 0.0,
         py::arg("pole_cone_deg") = 0.0,
         py::arg("axis_tolerance_deg"),
+        py::arg("tip_tolerance_mm") = kInfinity,
         py::arg("max_rotary_step_deg") = kInfinity,
         "As joint_path, with cuts split until the tool stays within axis_tolerance_deg of the great circle "
         "between two\n"
-        "poses and no axis turns more than max_rotary_step_deg: also tip (M, 3), axis (M, 3), source (M,).");
+        "poses and no axis turns more than max_rotary_step_deg: also tip (M, 3), axis (M, 3), source (M,), "
+        "keeps (M,)\n"
+        "bool. A finite tip_tolerance_mm: of the tip from its line while the joints run evenly; rapids are "
+        "split too.");
 }
 
 }  // namespace mpm::bindings

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "machine/chains.h"
 #include "mpm/machine/direction.h"
 #include "mpm/machine/refine.h"
@@ -13,7 +15,7 @@ PosePath two_poses(const Vec3& from, const Vec3& to) {
   return {{Vec3(0, 0, 0), Vec3(10, 0, 0)}, {from, to}, {0, 1}};
 }
 
-// Densely sampled, independently of the three samples that refine looks at.
+// Densely sampled, independently of the bound that refine uses.
 double dense_deviation(const KinematicChain& chain, const RefinedPath& refined) {
   double worst = 0;
   for (std::size_t i = 1; i < refined.poses.size(); ++i)
@@ -26,18 +28,12 @@ double dense_deviation(const KinematicChain& chain, const RefinedPath& refined) 
   return worst;
 }
 
-TEST(Refine, DeviationOfAnOrthogonalMachineIsTheKnownOne) {
-  // (dC^2 / 8) sin(tilt) cos(tilt): 30 degrees, 10 degree turn -> 0.095 degrees
-  const KinematicChain chain = chain_of(table('C', Vec3::UnitZ()), head('B', Vec3::UnitY()));
-  EXPECT_NEAR(degrees(axis_deviation(chain, {0, radians(30)}, {radians(10), radians(30)})), 0.095, 0.001);
-}
-
 TEST(Refine, CutsKeepTheTolerance) {
   for (double tolerance : {1e-3, 1e-5}) {
     const RefineOptions options{{}, tolerance};
     const RefinedPath refined =
         refine(inclined_head(), two_poses(direction(0.4, 0.0), direction(0.5, 1.5)), options);
-    EXPECT_LE(dense_deviation(inclined_head(), refined), 1.05 * tolerance);
+    EXPECT_LE(dense_deviation(inclined_head(), refined), tolerance);
     EXPECT_GT(refined.poses.size(), 4u);
   }
 }
@@ -57,11 +53,44 @@ TEST(Refine, GivenPosesAreKeptBitForBitAndPiecesKnowTheirMove) {
 TEST(Refine, MovesThatDoNotCutAreLeftAlone) {
   PosePath path = two_poses(direction(0.4, 0.0), direction(0.5, 1.5));
   path.cutting[1] = 0;
-  EXPECT_EQ(refine(inclined_head(), path, {{}, 1e-6}).poses.size(), 2u);
+  const RefinedPath refined = refine(inclined_head(), path, {{}, 1e-6});
+  EXPECT_EQ(refined.poses.size(), 2u);
+  EXPECT_EQ(refined.keeps.back(), 0);
+}
+
+// Of the tip from its straight line while the joints run evenly.
+double dense_tip_deviation(const KinematicChain& chain, const PartSetup& setup, const RefinedPath& refined) {
+  double worst = 0;
+  for (std::size_t i = 1; i < refined.poses.size(); ++i)
+    for (int k = 0; k <= 40; ++k) {
+      const double s = k / 40.0;
+      const JointPath& j = refined.joints;
+      const Joints at{j.linear[i - 1] + s * (j.linear[i] - j.linear[i - 1]),
+                      j.rotary[i - 1] + s * (j.rotary[i] - j.rotary[i - 1])};
+      const Vec3 meant = refined.poses.tip[i - 1] + s * (refined.poses.tip[i] - refined.poses.tip[i - 1]);
+      worst = std::max(worst, (forward(chain, setup, at).tip - meant).norm());
+    }
+  return worst;
+}
+
+TEST(Refine, WithoutTipControlTheTipKeepsItsLineInRapidsToo) {
+  for (std::uint8_t cutting : {0, 1}) {
+    PosePath path = two_poses(direction(0.4, 0.0), direction(0.5, 1.5));
+    path.cutting[1] = cutting;
+    RefineOptions options{{{Vec3(80, 20, 50), 150}, 0}, 1e-3};
+    options.tip_tolerance = 0.002;
+    const RefinedPath refined = refine(inclined_head(), path, options);
+    const double off = dense_tip_deviation(inclined_head(), options.joints.setup, refined);
+    EXPECT_LE(off, 0.002);
+    EXPECT_GE(off, 0.0005);  // not split for nothing
+    EXPECT_EQ(std::count(refined.keeps.begin(), refined.keeps.end(), 1),
+              std::ptrdiff_t(refined.keeps.size()));
+  }
 }
 
 TEST(Refine, LargestStepIsKept) {
-  const RefineOptions options{{}, 1.0, radians(5.0)};
+  RefineOptions options{{}, 1.0};
+  options.max_rotary_step = radians(5.0);
   const RefinedPath refined =
       refine(inclined_head(), two_poses(direction(0.4, 0.0), direction(0.4, 1.5)), options);
   for (std::size_t i = 1; i < refined.poses.size(); ++i)
@@ -72,12 +101,13 @@ TEST(Refine, LargestStepIsKept) {
 TEST(Refine, PassingNearThePoleKeepsTheTolerance) {
   const Vec3 from = Vec3(-0.1, 0.001, 1).normalized(), to = Vec3(0.1, 0.001, 1).normalized();
   const RefinedPath refined = refine(inclined_head(), two_poses(from, to), {{}, 1e-4});
-  EXPECT_LE(dense_deviation(inclined_head(), refined), 1.2e-4);
+  EXPECT_LE(dense_deviation(inclined_head(), refined), 1e-4);
 }
 
 TEST(Refine, TolerancesMustBePositive) {
   EXPECT_THROW(refine(inclined_head(), {}, {}), std::invalid_argument);
   EXPECT_THROW(refine(inclined_head(), {}, {{}, 1.0, 0.0}), std::invalid_argument);
+  EXPECT_THROW(refine(inclined_head(), {}, {{}, 1.0, 1.0, 0.0}), std::invalid_argument);
 }
 
 }  // namespace

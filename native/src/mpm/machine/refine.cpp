@@ -5,6 +5,7 @@
 
 #include "mpm/base/error.h"
 #include "mpm/machine/direction.h"
+#include "mpm/machine/joint_motion.h"
 
 namespace mpm {
 namespace {
@@ -13,7 +14,8 @@ namespace {
 constexpr int kMaxRounds = 20;
 // A bad piece is split in so many at most at a time: what it needs is only estimated.
 constexpr double kMaxSplit = 8;
-constexpr double kSamples[] = {0.25, 0.5, 0.75};
+// A turn of more than half a turn by more than this (radians) is a rewind; less is rounding.
+constexpr double kHalfTurnSlack = 1e-9;
 
 // For each move the fractions, rising to 1, at which its pieces end.
 using Fractions = std::vector<std::vector<double>>;
@@ -32,13 +34,38 @@ RefinedPath split(const PosePath& path, const Fractions& fractions) {
   return result;
 }
 
+Joints joints_at(const JointPath& path, std::size_t i) { return {path.linear[i], path.rotary[i]}; }
+
+MotionDeviation deviation(const KinematicChain& chain,
+                          const RefineOptions& options,
+                          const JointPath& joints,
+                          std::size_t end) {
+  if (std::isfinite(options.tip_tolerance))
+    return deviation_bound(chain, options.joints.setup, joints_at(joints, end - 1), joints_at(joints, end));
+  return {0, axis_deviation_bound(chain, joints.rotary[end - 1], joints.rotary[end])};
+}
+
+// The deviation as a multiple of what is allowed.
+double excess(const RefineOptions& options, const MotionDeviation& off) {
+  return std::max(off.tip / options.tip_tolerance, off.axis / options.axis_tolerance);
+}
+
+// True when the move that ends there is to be split where it does not keep the tolerances.
+bool may_split(const RefineOptions& options, const RefinedPath& refined, std::size_t end) {
+  if (refined.poses.cutting[end]) return true;
+  const JointPath& joints = refined.joints;
+  const double turn = (joints.rotary[end] - joints.rotary[end - 1]).cwiseAbs().maxCoeff();
+  return std::isfinite(options.tip_tolerance) && joints.branch[end] == joints.branch[end - 1] &&
+         turn <= kPi + kHalfTurnSlack;
+}
+
 // How many pieces this one should become: the deviation falls with their square, the step with their number.
 double pieces_needed(const KinematicChain& chain,
                      const RefineOptions& options,
-                     const Vec2& from,
-                     const Vec2& to) {
-  const double step = (to - from).cwiseAbs().maxCoeff();
-  const double needed = std::max(std::sqrt(axis_deviation(chain, from, to) / options.axis_tolerance),
+                     const JointPath& joints,
+                     std::size_t end) {
+  const double step = (joints.rotary[end] - joints.rotary[end - 1]).cwiseAbs().maxCoeff();
+  const double needed = std::max(std::sqrt(excess(options, deviation(chain, options, joints, end))),
                                  step / options.max_rotary_step);
   return std::min(std::ceil(needed), kMaxSplit);
 }
@@ -52,8 +79,9 @@ std::vector<double> split_further(const KinematicChain& chain,
   std::vector<double> result;
   double start = 0.0;
   for (std::size_t k = 0; k < ends.size(); ++k) {
-    const Vec2 &from = refined.joints.rotary[first + k - 1], &to = refined.joints.rotary[first + k];
-    const double pieces = pieces_needed(chain, options, from, to);
+    const std::size_t end = first + k;
+    const double pieces =
+        may_split(options, refined, end) ? pieces_needed(chain, options, refined.joints, end) : 1;
     for (double n = 1; n < pieces; ++n) result.push_back(start + n / pieces * (ends[k] - start));
     result.push_back(ends[k]);
     start = ends[k];
@@ -70,7 +98,7 @@ bool split_bad_pieces(const KinematicChain& chain,
   std::size_t first = 0;  // refined pose that ends the first piece of move i
   for (std::size_t i = 0; i < fractions.size(); ++i) {
     const std::size_t pieces = fractions[i].size();
-    if (i > 0 && refined.poses.cutting[first]) {
+    if (i > 0) {
       fractions[i] = split_further(chain, options, refined, first, fractions[i]);
       any = any || fractions[i].size() > pieces;
     }
@@ -79,18 +107,20 @@ bool split_bad_pieces(const KinematicChain& chain,
   return any;
 }
 
-}  // namespace
-
-double axis_deviation(const KinematicChain& chain, const Vec2& from, const Vec2& to) {
-  const Vec3 a = tool_axis(chain, from), b = tool_axis(chain, to);
-  double worst = 0;
-  for (double s : kSamples)
-    worst = std::max(worst, angle_between(tool_axis(chain, from + s * (to - from)), great_circle(a, b, s)));
-  return worst;
+std::vector<std::uint8_t> kept(const KinematicChain& chain,
+                               const RefineOptions& options,
+                               const JointPath& joints) {
+  std::vector<std::uint8_t> result(joints.rotary.size(), 1);
+  for (std::size_t i = 1; i < result.size(); ++i)
+    result[i] = excess(options, deviation(chain, options, joints, i)) <= 1;
+  return result;
 }
+
+}  // namespace
 
 RefinedPath refine(const KinematicChain& chain, const PosePath& path, const RefineOptions& options) {
   require(options.axis_tolerance > 0, "axis_tolerance must be positive");
+  require(options.tip_tolerance > 0, "tip_tolerance must be positive");
   require(options.max_rotary_step > 0, "max_rotary_step must be positive");
   Fractions fractions(path.size(), {1.0});
   RefinedPath refined;
@@ -99,6 +129,7 @@ RefinedPath refine(const KinematicChain& chain, const PosePath& path, const Refi
     refined.joints = joint_path(chain, refined.poses, options.joints);
     if (!split_bad_pieces(chain, options, refined, fractions)) break;
   }
+  refined.keeps = kept(chain, options, refined.joints);
   return refined;
 }
 

@@ -6,28 +6,28 @@
 
 namespace mpm {
 
-// Largest angle (radians) between the tool while both rotary axes run evenly from one pair of readings to
-// another and the tool on the great circle between its two end directions, at a quarter, half and three
-// quarters of the move.
-double axis_deviation(const KinematicChain& chain, const Vec2& from, const Vec2& to);
-
 struct RefineOptions {
   JointPathOptions joints;
-  double axis_tolerance = 0;           // radians, positive: allowed axis_deviation of a cut
+  double axis_tolerance = 0;  // radians, positive: of the axis off its great circle, in a cut
+  // mm, positive: of the tip off its straight line. Finite for a control that moves the joints and knows
+  // nothing of the tip: rapids are then split like cuts, for they too leave their line.
+  double tip_tolerance = kInfinity;
   double max_rotary_step = kInfinity;  // radians, positive: largest turn of either axis in one block of a cut
 };
 
 struct RefinedPath {
   PosePath poses;                     // the given poses and those inserted between them
   std::vector<std::uint32_t> source;  // index of the given move that each move is part of
+  std::vector<std::uint8_t> keeps;  // 1: the move keeps axis_tolerance and tip_tolerance; by deviation_bound
   JointPath joints;
 };
 
-// Splits the cutting moves, where they need it, until each piece keeps axis_tolerance and max_rotary_step:
-// inserted tips lie on the straight line, inserted axes on the great circle. All joints are chosen anew for
-// the refined path. The given poses are all kept, bit for bit, in their order. No move gets more than
-// kMaxPieces pieces; one that needs more (it goes through the pole itself, where the first axis has to turn
-// in no distance) ends with the tolerance not kept.
+// Splits the cutting moves, where they need it, until each piece keeps axis_tolerance, tip_tolerance and
+// max_rotary_step, all along it (deviation_bound): inserted tips lie on the straight line, inserted axes on
+// the great circle. All joints are chosen anew for the refined path. The given poses are all kept, bit for
+// bit, in their order. No move gets more than kMaxPieces pieces; one that needs more (it goes through the
+// pole itself, where the first axis has to turn in no distance) ends with the tolerance not kept, and so does
+// a rapid in which the rotary solution changes or an axis rewinds.
 inline constexpr std::size_t kMaxPieces = 4096;
 RefinedPath refine(const KinematicChain& chain, const PosePath& path, const RefineOptions& options);
 

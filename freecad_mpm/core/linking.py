@@ -1,0 +1,20 @@
+"""How a job's links are laid."""
+
+from __future__ import annotations
+
+from .. import _core
+from .job import Job
+
+# A cut may join positions that are this many forward steps apart; the pattern itself leaves no wider ones in a pass.
+CUT_LENGTH_STEPS = 1.5
+
+
+def link_options(job: Job) -> _core.LinkOptions:
+    """Heights, distances and limits of the links between cuts."""
+    spec = job.link
+    return _core.LinkOptions(
+        safe_clearance_mm=spec.safe_clearance_mm,
+        approach_distance_mm=spec.approach_distance_mm,
+        gouge_mm=job.tolerance.gouge_mm,
+        cut_length_max_mm=CUT_LENGTH_STEPS * job.footprint.forward_step_mm,
+    )
