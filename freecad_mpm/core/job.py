@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from . import checks, tools
-from .checks import Vector, between, choice, inside, positive
+from .checks import Vector, between, choice, inside, not_negative, positive
 from .errors import InputError
 from .sections import Section, key, read_toml, suggestion
 from .tools import ToolSpec
@@ -19,6 +19,9 @@ from .tools import ToolSpec
 DEFAULT_METHOD = "exact"
 DEFAULT_MACHINE = "dmu80p"
 DEFAULT_POST = "dmu80p"
+
+# Ways to measure the distance of two contacts: seen along the feed, or from one to the other.
+ACROSS, DIRECT = "across", "direct"
 
 
 @dataclass(frozen=True)
@@ -63,14 +66,24 @@ class FootprintSpec(Section):
 
 @dataclass(frozen=True)
 class MethodSpec(Section):
-    """How the tool is placed: the method's name, the spin, the tilt limit, and options of its own."""
+    """How the tool is placed: the method's name, the spin, the tilt limit, and options of its own.
+
+    With a `contact_spacing_mm` other than 0 every position gets the spin that sets its contacts so far apart."""
 
     table: ClassVar[str] = "method"
 
     name: str = key(checks.text, DEFAULT_METHOD)
     spin_deg: float = key(between(-180, 180, "degrees"), 0.0)
+    contact_spacing_mm: float = key(not_negative("mm"), 0.0)
+    spacing_measure: str = key(choice(ACROSS, DIRECT), ACROSS)
     tilt_max_deg: float = key(inside(0, 90, "degrees"), 45.0)
     options: dict[str, Any] = field(default_factory=dict, metadata={"check": checks.options})
+
+    def check_together(self) -> None:
+        if self.contact_spacing_mm and self.spin_deg:
+            raise self.error(
+                "spin_deg", f"must be 0 when contact_spacing_mm chooses the spin, got {self.spin_deg:g}"
+            )
 
 
 @dataclass(frozen=True)

@@ -29,7 +29,7 @@ CONTROL_SHARE = 0.25
 # A move is halved so many times at most: to a sixteenth. What is not free then leads over a jump of the axis.
 DEPTH = 4
 
-Place = Callable[[Floats], Positions]
+Place = Callable[[Floats, Floats], Positions]
 
 
 def control_deviation_deg(job: Job) -> float:
@@ -56,7 +56,8 @@ def prove(
 ) -> Proven:
     """Certify the moves along the passes and put positions in between until they are free, all in the set-up frame.
 
-    points: (N, 2) where in plan the positions stand. place: gives the positions over further points."""
+    points: (N, 2) where in plan the positions stand. place: gives the positions over further points (M, 2) with the
+    spins (M,) in degrees."""
     rows = _Rows(points, positions, np.full(len(points), np.nan))
     open_moves = neighbours(positions)
     cells = 0
@@ -115,7 +116,8 @@ def _halve(rows: _Rows, failed: Flags, place: Place) -> tuple[_Rows, Flags]:
     """A position in the middle of each failed move, where there is one; and which moves are new for it."""
     before = np.flatnonzero(failed)
     points = 0.5 * (rows.points[before - 1] + rows.points[before])
-    middles = place(points)
+    spin_deg = rows.positions.spin_deg
+    middles = place(points, middle_angle_deg(spin_deg[before - 1], spin_deg[before]))
     middles = replace(
         middles, pass_index=rows.positions.pass_index[before], inserted=np.ones(len(before), bool)
     )
@@ -128,6 +130,13 @@ def _halve(rows: _Rows, failed: Flags, place: Place) -> tuple[_Rows, Flags]:
     new = which >= len(rows.points)
     new[1:] |= new[:-1]  # the moves to an inserted position and from it
     return _select(_joined(rows, added), which), new
+
+
+def middle_angle_deg(a: Floats, b: Floats) -> Floats:
+    """Half-way from a to b on the shorter way round, in [-180, 180)."""
+    turn = (b - a + 180.0) % 360.0 - 180.0
+    middle: Floats = (a + turn / 2 + 180.0) % 360.0 - 180.0
+    return middle
 
 
 def _without_loners(rows: _Rows) -> _Rows:

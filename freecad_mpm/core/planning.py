@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
 from .. import _core
-from . import motions, report
+from . import motions, report, spacing
 from .errors import blame
 from .faces import FaceArrays
 from .frame import Frame
@@ -53,13 +54,17 @@ def plan(
     stages = Stages(on_progress, cancel, threads)
     scene = prepare(job, faces, stages)
     footprint = lay_out(job, scene, stages)
-    positions, cuts, counters = place_and_prove(job, scene, footprint, stages)
-    path = link(job, scene, positions, cuts, stages)
+    placed = place_and_prove(job, scene, footprint, stages)
+    positions = placed.positions
+    path = link(job, scene, positions, placed.cuts, stages)
     path, joints = fit_to_machine(job, shop, scene, path, stages)
     made = make_program(job, shop, path, joints, scene.model.bounds(), stages)
     positions, path = positions_in_part(positions, scene.frame), path_in_part(path, scene.frame)
     verdict = judge(positions, path, made.troubles, job.tolerance, guarantee_of(job))
-    facts = report.facts(job, shop.machine, positions, path, made, counters, stages.seconds, verdict)
+    facts = report.facts(job, shop.machine, positions, path, made, placed.counters, stages.seconds, verdict)
+    if job.method.contact_spacing_mm:
+        along = scene.frame.direction_to_part(spacing.feed(job.footprint.direction_deg))
+        facts["contact_spacing"] = spacing.facts(job.method, positions, placed.nearest, along)
     return Plan(
         **vars(positions),
         job=job,
@@ -89,6 +94,13 @@ def check_method(job: Job) -> None:
             MethodSpec.table,
             "name",
             f"unknown method '{method.name}'{suggestion(method.name, _core.METHODS)}",
+        )
+    if method.contact_spacing_mm and not _core.METHODS[method.name]["spins"]:
+        able = " and ".join(name for name, one in _core.METHODS.items() if one["spins"])
+        raise job.error(
+            MethodSpec.table,
+            "contact_spacing_mm",
+            f"must be 0 for {method.name}, which cannot spin; {able} can",
         )
     known = _core.METHODS[method.name]["options"]
     for name, value in method.options.items():
@@ -139,25 +151,35 @@ def unbroken_runs(pass_index: Integers, keep: Flags) -> Integers:
     return np.asarray(np.cumsum(starts)[keep] - 1)
 
 
-def place_and_prove(
-    job: Job, scene: Scene, footprint: Footprint, stages: Stages
-) -> tuple[Positions, Floats | None, dict[str, int]]:
-    """Positions in the set-up frame; of a proven method also the proven clearances of the cuts that end in them, with
-    positions put in between where it takes them; and counters of the work."""
-    positioner = make_positioner(job, scene, stages)
-    positions, counters = place(job, scene, positioner, footprint, stages)
-    if guarantee_of(job) != PROVEN:
-        return positions, None, counters
+@dataclass(frozen=True)
+class Placed:
+    """Positions in the set-up frame and what was found out with them."""
 
-    def place_more(points: Floats) -> Positions:
-        more = Footprint(points, np.zeros(len(points), dtype=np.int64))
-        placed, work = place(job, scene, positioner, more, stages, motions.STAGE)
-        for name, value in work.items():
+    positions: Positions
+    cuts: Floats | None  # (N,) mm: proven clearances of the cuts that end in the positions; None: nobody proved any
+    nearest: spacing.Nearest  # empty unless the job wants a contact spacing
+    counters: dict[str, int]
+
+
+def place_and_prove(job: Job, scene: Scene, footprint: Footprint, stages: Stages) -> Placed:
+    """The positions; of a proven method also proven cuts, with positions put in between where it takes them."""
+    positioner = make_positioner(job, scene, stages)
+    positions, nearest, counters = place(job, scene, positioner, footprint, stages)
+    if guarantee_of(job) != PROVEN:
+        return Placed(positions, None, nearest, counters)
+
+    def place_more(points: Floats, spins_deg: Floats) -> Positions:
+        own = spins_deg if job.method.contact_spacing_mm else None
+        placed = stages.run_native(motions.STAGE, positioner.place, points, spins_deg=own)
+        for name, value in placed.pop("counters").items():
             counters[name] += value
-        return placed
+        passes = np.zeros(len(points), dtype=np.int64)
+        return as_positions(scene, Footprint(points, passes), placed, stages, motions.STAGE)
 
     proven = motions.prove(job, scene, footprint.points, positions, place_more, stages)
-    return proven.positions, proven.cut_clearance, counters | {"motion_cells": proven.cells}
+    return Placed(
+        proven.positions, proven.cut_clearance, nearest, counters | {"motion_cells": proven.cells}
+    )
 
 
 def make_positioner(job: Job, scene: Scene, stages: Stages) -> _core.Positioner:
@@ -179,25 +201,40 @@ def make_positioner(job: Job, scene: Scene, stages: Stages) -> _core.Positioner:
 
 
 def place(
-    job: Job,
-    scene: Scene,
-    positioner: _core.Positioner,
-    footprint: Footprint,
-    stages: Stages,
-    stage: str = "",
-) -> tuple[Positions, dict[str, int]]:
-    """Positions in the set-up frame, and the method's counters; a second opinion by dense sampling may lower the upper
-    bounds of their clearances. stage: the one to count it under, if not as the stages "positions" and "judge".
-    """
+    job: Job, scene: Scene, positioner: _core.Positioner, footprint: Footprint, stages: Stages
+) -> tuple[Positions, spacing.Nearest, dict[str, int]]:
+    """Positions in the set-up frame, what contact spacings come nearest to a wanted one, and the method's counters."""
+    method, nearest = job.method, spacing.Nearest()
     with blame(f"{job.source}: [{MethodSpec.table}]"):
-        placed = stages.run_native(stage or "positions", positioner.place, footprint.points)
+        if method.contact_spacing_mm:
+            placed = stages.run_native(
+                "positions",
+                positioner.place_spaced,
+                footprint.points,
+                footprint.pass_index,
+                method.contact_spacing_mm,
+                measure=method.spacing_measure,
+                feed=spacing.feed(job.footprint.direction_deg),
+            )
+            placed.pop("contact_spacing_mm")
+            nearest = spacing.Nearest(footprint.points, placed.pop("nearest_spacing_mm"))
+        else:
+            placed = stages.run_native("positions", positioner.place, footprint.points)
     counters = placed.pop("counters")
+    return as_positions(scene, footprint, placed, stages, "judge"), nearest, counters
+
+
+def as_positions(
+    scene: Scene, footprint: Footprint, placed: dict[str, Any], stages: Stages, stage: str
+) -> Positions:
+    """What a positioner placed, as Positions; a second opinion by dense sampling may lower the upper bounds of their
+    clearances."""
     placed["status"] = np.array(_core.POSITION_STATUS)[placed["status"]]
     of_footprint = np.zeros(len(footprint.points), dtype=bool)
     positions = Positions(**placed, pass_index=footprint.pass_index, inserted=of_footprint)
     usable = positions.usable
     sampled = stages.run_native(
-        stage or "judge",
+        stage,
         _core.sampled_clearance,
         scene.model,
         scene.tool,
@@ -205,7 +242,7 @@ def place(
         positions.axis[usable],
     )
     positions.clearance[usable, 1] = np.minimum(positions.clearance[usable, 1], sampled)
-    return positions, counters
+    return positions
 
 
 def link(job: Job, scene: Scene, positions: Positions, cuts: Floats | None, stages: Stages) -> Path:
@@ -230,6 +267,12 @@ def link(job: Job, scene: Scene, positions: Positions, cuts: Floats | None, stag
             MethodSpec.table, "name", f"{job.method.name} found no usable position for this tool and part"
         )
     return Path(**linked)
+
+
+def cut_length_max_mm(job: Job) -> float:
+    """How far apart (mm) neighbours of a pass may be to be joined by a cut; a spun tool goes round its contact besides."""
+    swing = 2 * job.tool.radius_mm if job.method.contact_spacing_mm else 0.0
+    return CUT_LENGTH_STEPS * job.footprint.forward_step_mm + swing
 
 
 def positions_in_part(positions: Positions, frame: Frame) -> Positions:

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from . import spacing
 from .job import Job
 from .machines import Machine
 from .motion_time import slowed_cuts
@@ -111,6 +112,7 @@ def _job_facts(job: Job) -> Facts:
         "options": dict(method.options),
         "tilt_max_deg": method.tilt_max_deg,
         "spin_deg": method.spin_deg,
+        "contact_spacing_mm": method.contact_spacing_mm,
         "gouge_tolerance_mm": job.tolerance.gouge_mm,
         "chord_tolerance_mm": job.tolerance.chord_mm,
         "machine": job.machine.name,
@@ -215,9 +217,14 @@ def _job_lines(job: Facts) -> list[str]:
         f"Tool:      {job['tool']}",
         f"Footprint: {footprint['pattern']}, feed at {footprint['direction_deg']:g} deg, "
         f"steps {footprint['side_step_mm']:g} mm aside, {footprint['forward_step_mm']:g} mm forward, {order}",
-        f"Method:    {job['method']}, spin {job['spin_deg']:g} deg, tilt up to {job['tilt_max_deg']:g} deg",
+        f"Method:    {job['method']}, {_spin(job)}, tilt up to {job['tilt_max_deg']:g} deg",
         f"Tolerance: gouge {job['gouge_tolerance_mm']:g} mm, chord {job['chord_tolerance_mm']:g} mm",
     ]
+
+
+def _spin(job: Facts) -> str:
+    wanted = job["contact_spacing_mm"]
+    return f"spin for contacts {wanted:g} mm apart" if wanted else f"spin {job['spin_deg']:g} deg"
 
 
 def _position_lines(facts: Facts) -> list[str]:
@@ -231,6 +238,8 @@ def _position_lines(facts: Facts) -> list[str]:
         f"Contacts: {positions['with_first_contact']} first, {positions['with_second_contact']} second; "
         f"{positions['gouging']} gouging, {positions['undecided']} undecided"
     )
+    if "contact_spacing" in facts:
+        lines.append(spacing.sentence(facts["contact_spacing"]))
     if worst:
         x, y, z = worst["tip_mm"]
         lines.append(

@@ -17,6 +17,7 @@ PART_NAME = "{document}: {operation}"
 PROPERTY_OF = {
     "[method] name": "Method",
     "[method] spin_deg": "Spin",
+    "[method] contact_spacing_mm": "ContactSpacing",
     "[method] tilt_max_deg": "TiltMax",
     "[footprint] direction_deg": "Direction",
     "[footprint] side_step_mm": "SideStep",
@@ -44,7 +45,13 @@ def job_of(op: Any, machined: Sequence[str], check: Sequence[str]) -> core.Job:
         part=core.Part(file=name, faces=tuple(machined), check_faces=tuple(check)),
         tool=tool_of(op),
         footprint=_footprint(op),
-        method=core.MethodSpec(name=op.Method, spin_deg=op.Spin.Value, tilt_max_deg=op.TiltMax.Value),
+        method=core.MethodSpec(
+            name=op.Method,
+            spin_deg=op.Spin.Value,
+            contact_spacing_mm=op.ContactSpacing.Value,
+            spacing_measure=op.SpacingMeasure,
+            tilt_max_deg=op.TiltMax.Value,
+        ),
         link=core.LinkSpec(
             safe_clearance_mm=op.SafeClearance.Value, approach_distance_mm=op.ApproachDistance.Value
         ),

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from ..core.job import DEFAULT_MACHINE, DEFAULT_METHOD, DEFAULT_POST
+from ..core.job import ACROSS, DEFAULT_MACHINE, DEFAULT_METHOD, DEFAULT_POST, DIRECT
 
 # Raised when the meaning of a stored property changes; `migrate` then turns older documents into the new form.
 SCHEMA_VERSION = 1
@@ -52,6 +52,21 @@ PROPERTIES = (
         "Method",
         "Turn of the tilt direction about the vertical, from the feed direction",
         0.0,
+    ),
+    Property(
+        "ContactSpacing",
+        "Length",
+        "Method",
+        "Distance of the two contacts, kept along the passes by the spin of each position; 0: Spin is the same for all",
+        0.0,
+    ),
+    Property(
+        "SpacingMeasure",
+        "Enumeration",
+        "Method",
+        "How the distance of the contacts is measured: across the feed, or direct from one to the other",
+        ACROSS,
+        lambda: [ACROSS, DIRECT],
     ),
     Property("TiltMax", "Angle", "Method", "Largest angle between the tool axis and the vertical", 45.0),
     Property("Direction", "Angle", "Footprint", "Feed direction in the XY plane, from the X axis", 90.0),

@@ -1,5 +1,6 @@
 #include "common.h"
 #include "mpm/gouge/certify_motion.h"
+#include "mpm/gouge/certify_poses.h"
 
 namespace mpm::bindings {
 namespace {
@@ -15,6 +16,38 @@ std::vector<ToolPose> to_poses(const Tool& tool,
   std::vector<ToolPose> poses;
   for (std::size_t i = 0; i < tip.size(); ++i) poses.push_back(ToolPose::from_tip(tool, tip[i], axis[i]));
   return poses;
+}
+
+template <class Found>
+py::dict to_dict(const std::vector<Found>& found) {
+  std::vector<double> lo, hi;
+  std::vector<std::uint8_t> verdict;
+  std::vector<std::uint64_t> cells;
+  for (const Found& c : found) {
+    lo.push_back(c.lo), hi.push_back(c.hi), cells.push_back(c.cells);
+    verdict.push_back(std::uint8_t(c.verdict));
+  }
+  py::dict result;
+  result["lo"] = from_scalars(lo), result["hi"] = from_scalars(hi);
+  result["verdict"] = from_scalars(verdict), result["cells"] = from_scalars(cells);
+  return result;
+}
+
+py::dict poses(const SurfaceModel& model,
+               const Tool& tool,
+               const DoubleArray& tips,
+               const DoubleArray& axes,
+               double tolerance_mm,
+               Context& context) {
+  const std::vector<ToolPose> all = to_poses(tool, tips, axes, "tips", "axes");
+  for (const ToolPose& pose : all)
+    require(pose.torus_center.allFinite() && pose.axis.allFinite(), "tips, axes: must be finite");
+  std::vector<Certificate> found;
+  {
+    py::gil_scoped_release release;
+    found = certify_poses(model, tool, all, tolerance_mm, context);
+  }
+  return to_dict(found);
 }
 
 py::dict motions(const SurfaceModel& model,
@@ -36,23 +69,26 @@ py::dict motions(const SurfaceModel& model,
     py::gil_scoped_release release;
     found = certify_motions(model, tool, from, to, options, context);
   }
-  std::vector<double> lo, hi;
-  std::vector<std::uint8_t> verdict;
-  std::vector<std::uint64_t> cells;
-  for (const MotionCertificate& c : found) {
-    lo.push_back(c.lo), hi.push_back(c.hi), cells.push_back(c.cells);
-    verdict.push_back(std::uint8_t(c.verdict));
-  }
-  py::dict result;
-  result["lo"] = from_scalars(lo), result["hi"] = from_scalars(hi);
-  result["verdict"] = from_scalars(verdict), result["cells"] = from_scalars(cells);
-  return result;
+  return to_dict(found);
 }
 
 }  // namespace
 
 void bind_gouge(py::module_& m) {
   m.attr("VERDICTS") = py::make_tuple("free", "gouge", "undecided");
+  m.def(
+      "certify_poses",
+      &poses,
+      py::arg("model"),
+      py::arg("tool"),
+      py::arg("tips"),
+      py::arg("axes"),
+      py::kw_only(),
+      py::arg("tolerance_mm"),
+      py::arg("context"),
+      "Certificates of the poses tips, axes (N, 3). Dict of lo, hi (N,) mm, proven and met bounds of the "
+      "clearance (of a pose deeper than tolerance_mm at most a tenth of the depth apart), verdict (N,) codes "
+      "of VERDICTS, cells (N,).");
   m.def("certify_motions",
         &motions,
         py::arg("model"),

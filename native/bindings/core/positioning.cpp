@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "common.h"
 #include "mpm/base/context.h"
 #include "mpm/footprint/plan_locator.h"
 #include "mpm/gouge/clearance_sampler.h"
+#include "mpm/positioning/contact_spacing.h"
 #include "mpm/positioning/method.h"
 
 namespace mpm::bindings {
@@ -54,7 +56,7 @@ class Positioner {
              double tilt_max_deg,
              double spin_deg,
              const std::map<std::string, double>& options)
-      : model_(model), tool_(tool) {
+      : model_(model), tool_(tool), tilt_max_(radians(tilt_max_deg)) {
     py::gil_scoped_release release;
     method_ = make_method(method, model, tool_, {radians(tilt_max_deg), radians(spin_deg), options});
   }
@@ -78,19 +80,69 @@ class Positioner {
     return to_dict(placements, tool_);
   }
 
-  py::dict place(const DoubleArray& points, Context& context) const {
+  py::dict place(const DoubleArray& points,
+                 const std::optional<DoubleArray>& spins_deg,
+                 Context& context) const {
     const std::vector<Vec2> at = to_vectors<Vec2>(points, "points");
+    std::vector<double> spins;
+    if (spins_deg) spins = to_radians(*spins_deg);
     Placements placements;
     {
       py::gil_scoped_release release;
-      placements = place_all(*method_, at, context);
+      placements = spins_deg ? place_spun(*method_, at, spins, context) : place_all(*method_, at, context);
     }
     return to_dict(placements, tool_);
   }
 
+  py::dict place_spins(const DoubleArray& points, const DoubleArray& spins_deg, Context& context) const {
+    const std::vector<Vec2> at = to_vectors<Vec2>(points, "points");
+    const std::vector<double> spins = to_radians(spins_deg);
+    Placements placements;
+    {
+      py::gil_scoped_release release;
+      placements = mpm::place_spins(*method_, at, spins, context);
+    }
+    return to_dict(placements, tool_);
+  }
+
+  py::dict place_spaced(const DoubleArray& points,
+                        const std::vector<std::int64_t>& pass_index,
+                        double contact_spacing_mm,
+                        const std::string& measure,
+                        const DoubleArray& feed,
+                        int samples,
+                        Context& context) const {
+    const std::vector<Vec2> at = to_vectors<Vec2>(points, "points");
+    require(measure == "across" || measure == "direct", "measure must be across or direct");
+    const std::vector<Vec3> along = to_vectors<Vec3>(feed, "feed");
+    require(along.size() == 1 && along[0].allFinite() && !along[0].isZero(0),
+            "feed must be one finite vector, not zero");
+    const SpacingRules rules{contact_spacing_mm,
+                             measure == "across" ? SpacingMeasure::across : SpacingMeasure::direct,
+                             along[0].normalized(),
+                             tilt_max_,
+                             samples};
+    SpacedPlacements spaced;
+    {
+      py::gil_scoped_release release;
+      spaced = mpm::place_spaced(*method_, at, pass_index, rules, context);
+    }
+    py::dict result = to_dict(spaced.placed, tool_);
+    result["contact_spacing_mm"] = from_scalars(spaced.spacing);
+    result["nearest_spacing_mm"] = from_scalars(spaced.nearest);
+    return result;
+  }
+
  private:
+  static std::vector<double> to_radians(const DoubleArray& angles_deg) {
+    std::vector<double> angles = to_doubles(angles_deg, "spins_deg");
+    for (double& angle : angles) angle = radians(angle);
+    return angles;
+  }
+
   const SurfaceModel& model_;
   Tool tool_;
+  double tilt_max_;
   std::unique_ptr<Method> method_;
 };
 
@@ -131,6 +183,7 @@ py::dict method_table() {
   for (const MethodInfo& m : methods()) {
     py::dict one;
     one["guarantee"] = m.guarantee;
+    one["spins"] = m.spins;
     one["options"] = m.numbers;
     result[m.name] = one;
   }
@@ -164,12 +217,34 @@ void bind_positioning(py::module_& m) {
            &Positioner::place,
            py::arg("points"),
            py::kw_only(),
+           py::arg("spins_deg") = py::none(),
            py::arg("context"),
            "Positions over plan points (N, 2) of the set-up frame. Dict of tip, axis (N, 3), contacts, "
-           "normals "
-           "(N, 2, 3; NaN: none), status (N,) codes of POSITION_STATUS, tilt_deg, spin_deg (N,), clearance "
-           "(N, 2) "
-           "mm bounds (infinite: nobody proved or measured one) and counters.")
+           "normals (N, 2, 3; NaN: none), status (N,) codes of POSITION_STATUS, tilt_deg, spin_deg (N,), "
+           "clearance (N, 2) mm bounds (infinite: nobody proved or measured one) and counters. spins_deg: "
+           "(N,), a spin for each point in place of the positioner's own.")
+      .def("place_spins",
+           &Positioner::place_spins,
+           py::arg("points"),
+           py::arg("spins_deg"),
+           py::kw_only(),
+           py::arg("context"),
+           "Every point (N, 2) with every spin (K,): as `place`, with N K rows, point by point. The drop is "
+           "done once a point.")
+      .def("place_spaced",
+           &Positioner::place_spaced,
+           py::arg("points"),
+           py::arg("pass_index"),
+           py::arg("contact_spacing_mm"),
+           py::kw_only(),
+           py::arg("measure") = "across",
+           py::arg("feed"),
+           py::arg("samples") = SpacingRules{}.samples,
+           py::arg("context"),
+           "Positions over points (N, 2) whose contacts are contact_spacing_mm apart: across, seen along the "
+           "direction feed (3,), or direct. Points of one pass_index (N,) follow each other; the pass takes "
+           "the spins that turn its axis least. As `place`, with contact_spacing_mm (N,), what each position "
+           "has (NaN: none), and nearest_spacing_mm (N,), what of all spins comes nearest.")
       .def("place_contacts",
            &Positioner::place_contacts,
            py::arg("faces"),

@@ -17,6 +17,7 @@ struct Options {
   ToolGrid grid;
   int seeds;
   double vicinity;  // half-sides of the box round P, in parts of the face's parameter ranges
+  bool spins;
 };
 
 class Dstm final : public Method {
@@ -29,10 +30,28 @@ class Dstm final : public Method {
         options_(options),
         locator_(model, tool.radius() / 2) {}
 
-  Placement place(const Vec2& at, Counters& counters) const override;
+  Placement place(const Vec2& at, Counters& counters) const override {
+    return Dropped(*this, at, counters).spun(spin_, counters);
+  }
+  std::unique_ptr<DroppedTool> drop(const Vec2& at, Counters& counters) const override {
+    require(options_.spins, "spin_deg: dtm cannot spin; dstm can");
+    return std::make_unique<Dropped>(*this, at, counters);
+  }
 
  private:
-  Insert spun(const Insert& insert, const Vec3& normal) const;
+  class Dropped final : public DroppedTool {
+   public:
+    Dropped(const Dstm& method, const Vec2& at, Counters& counters);
+    Placement spun(double spin, Counters& counters) const override;
+
+   private:
+    const Dstm& method_;
+    SeedSource random_;  // as the drop left it: every spin's tilt draws the same numbers
+    TangentPoint p_{};
+    Placement upright_;
+    bool tilts_ = false;
+  };
+
   TiltSolution first_start(const TangentPoint& p, const Insert& insert) const;
   bool acceptable(const TiltSolution& found, const TangentPoint& p, const ToolPose& pose) const;
   void tilt(const TangentPoint& p,
@@ -48,8 +67,8 @@ class Dstm final : public Method {
   PlanLocator locator_;
 };
 
-Insert Dstm::spun(const Insert& insert, const Vec3& normal) const {
-  const Mat3 turn = Eigen::AngleAxisd(spin_, normal).toRotationMatrix();
+Insert turned(const Insert& insert, const Vec3& normal, double spin) {
+  const Mat3 turn = Eigen::AngleAxisd(spin, normal).toRotationMatrix();
   return {insert.center, turn * insert.u1, turn * insert.v1, turn * insert.w1};
 }
 
@@ -98,33 +117,36 @@ void Dstm::tilt(const TangentPoint& p,
   placement.second_contact = placement.first_contact, placement.second_normal = placement.first_normal;
 }
 
-Placement Dstm::place(const Vec2& at, Counters& counters) const {
-  Placement placement;
-  const std::vector<Seed> faces = seeds_under_tool(locator_, tool_, at);
-  if (faces.empty()) {
-    placement.status = PositionStatus::off_part;
-    return placement;
-  }
-  SeedSource random(at);
+Dstm::Dropped::Dropped(const Dstm& method, const Vec2& at, Counters& counters)
+    : method_(method), random_(at) {
+  const SurfaceModel& model = method.model_;
+  const Tool& tool = method.tool_;
+  const Options& options = method.options_;
+  upright_.status = PositionStatus::off_part;
+  const std::vector<Seed> faces = seeds_under_tool(method.locator_, tool, at);
+  if (faces.empty()) return;
+  upright_.status = PositionStatus::undecided;
   const auto drop =
-      newton_drop(model_, tool_, at, faces, options_.rules, options_.grid, options_.seeds, random, counters);
-  if (!drop) {
-    placement.status = PositionStatus::undecided;
-    return placement;
-  }
-  const TangentPoint& p = drop->contact;
-  if (model_.faces()[p.face].check) {
-    placement.status = PositionStatus::off_part;
-    return placement;
-  }
-  placement.pose = {Vec3(at.x(), at.y(), drop->height), Vec3::UnitZ()};
-  placement.first_contact = p.s, placement.first_normal = p.n;
-  placement.tilt = 0, placement.spin = spin_;
-  placement.status = PositionStatus::one_contact;
-  if (tool_.major_radius == 0 || (p.s.head<2>() - at).norm() <= kOnAxis) return placement;
-  const Insert insert = spun(insert_through(tool_, placement.pose, p.s), p.n);
-  placement.pose = tilted(tool_, insert, 0);
-  tilt(p, insert, random, placement, counters);
+      newton_drop(model, tool, at, faces, options.rules, options.grid, options.seeds, random_, counters);
+  if (!drop) return;
+  p_ = drop->contact;
+  upright_.status = PositionStatus::off_part;
+  if (model.faces()[p_.face].check) return;
+  upright_.status = PositionStatus::one_contact;
+  upright_.pose = {Vec3(at.x(), at.y(), drop->height), Vec3::UnitZ()};
+  upright_.first_contact = p_.s, upright_.first_normal = p_.n;
+  upright_.tilt = 0;
+  tilts_ = tool.major_radius > 0 && (p_.s.head<2>() - at).norm() > kOnAxis;
+}
+
+Placement Dstm::Dropped::spun(double spin, Counters& counters) const {
+  Placement placement = upright_;
+  if (placement.status == PositionStatus::one_contact) placement.spin = spin;
+  if (!tilts_) return placement;
+  const Insert insert = turned(insert_through(method_.tool_, placement.pose, p_.s), p_.n, spin);
+  placement.pose = tilted(method_.tool_, insert, 0);
+  SeedSource random = random_;
+  method_.tilt(p_, insert, random, placement, counters);
   return placement;
 }
 
@@ -160,7 +182,12 @@ std::map<std::string, double> dstm_defaults() {
           {"gouge_mm", grid.gouge}};
 }
 
-std::unique_ptr<Method> make_dstm(const SurfaceModel& model, const Tool& tool, const MethodOptions& options) {
+namespace {
+
+std::unique_ptr<Method> make(const SurfaceModel& model,
+                             const Tool& tool,
+                             const MethodOptions& options,
+                             bool spins) {
   const NewtonRules rules{whole(options, "analytic", 0, 1) == 1,
                           whole(options, "printed_equation_7", 0, 1) == 1,
                           positive(options, "richardson_step"),
@@ -175,12 +202,18 @@ std::unique_ptr<Method> make_dstm(const SurfaceModel& model, const Tool& tool, c
       tool,
       options.tilt_max,
       options.spin,
-      Options{rules, grid, whole(options, "seeds", 1, 100000), positive(options, "vicinity")});
+      Options{rules, grid, whole(options, "seeds", 1, 100000), positive(options, "vicinity"), spins});
+}
+
+}  // namespace
+
+std::unique_ptr<Method> make_dstm(const SurfaceModel& model, const Tool& tool, const MethodOptions& options) {
+  return make(model, tool, options, true);
 }
 
 std::unique_ptr<Method> make_dtm(const SurfaceModel& model, const Tool& tool, const MethodOptions& options) {
   require(options.spin == 0, "spin_deg: dtm cannot spin; use 0, or method dstm");
-  return make_dstm(model, tool, options);
+  return make(model, tool, options, false);
 }
 
 }  // namespace mpm

@@ -56,8 +56,10 @@ class Exact final : public Method {
 
   Placement place(const Vec2& at, Counters& counters) const override;
   Placement place(const GivenContact& at, Counters& counters) const override;
+  std::unique_ptr<DroppedTool> drop(const Vec2& at, Counters& counters) const override;
 
  private:
+  class Dropped;
   struct Touch {
     std::uint32_t face = 0;
     PatchMinimum at;
@@ -94,6 +96,16 @@ class Exact final : public Method {
             Placement& placement,
             Counters& counters) const;
   void finish(Placement& placement, const Certificate& certificate) const;
+  bool drop(const Vec2& at,
+            std::vector<Start>& starts,
+            Touch& first,
+            Placement& placement,
+            Counters& counters) const;
+  void spin_and_tilt(double spin,
+                     const Touch& first,
+                     const std::vector<Start>& starts,
+                     Placement& placement,
+                     Counters& counters) const;
 
   const SurfaceModel& model_;
   Tool tool_;
@@ -237,7 +249,7 @@ void Exact::tilt(const Touch& first,
                  Counters& counters) const {
   const SurfacePoint p = model_.faces()[first.face].surface.evaluate(first.at.u, first.at.v);
   const double curvature = curvature_limit(tool_, insert, p, first.at);
-  const double limit = std::max(0.0, std::min(curvature, tilt_max));
+  const double limit = std::max(open_side, std::min(curvature, tilt_max));
   const Tilt approach(tool_, insert);
   double x = limit;
   Touch second = best_start(approach, starts, x, counters);
@@ -269,43 +281,85 @@ void Exact::tilt(const Touch& first,
   finish(placement, certificate);
 }
 
-Placement Exact::place(const Vec2& at, Counters& counters) const {
-  thread_local std::vector<Start> starts;
+// Fills placement with the upright tool and `first` with P; false when nothing can be tilted about it, and
+// the placement is all there is.
+bool Exact::drop(const Vec2& at,
+                 std::vector<Start>& starts,
+                 Touch& first,
+                 Placement& placement,
+                 Counters& counters) const {
   gather_starts(
       [&](const Vec3& c, double radius) {
         return (c.head<2>() - at).squaredNorm() <= (tool_.radius() + radius) * (tool_.radius() + radius);
       },
       starts);
-  Placement placement;
   placement.status = PositionStatus::off_part;
   const Drop approach(tool_, at);
-  Touch first = best_start(approach, starts, kInfinity, counters);
-  if (!first.found()) return placement;
+  first = best_start(approach, starts, kInfinity, counters);
+  if (!first.found()) return false;
   double x = first.at.value;
   const Certificate certificate = first_touch(approach, nullptr, x, first, counters);
-  if (model_.faces()[first.face].check) return placement;
+  if (model_.faces()[first.face].check) return false;
   placement.pose = approach.pose(x);
   placement.first_contact = first.at.s;
   placement.tilt = 0;
-  placement.spin = spin_;
   placement.first_normal =
       first.body ? placement.pose.axis : Vec3(-ring_distance(tool_, placement.pose, first.at.s).gradient);
   const bool on_axis = !((first.at.s - placement.pose.torus_center).head<2>().norm() > kMerged);
-  if (tool_.major_radius > 0 && !on_axis && !first.body && certificate.verdict == Verdict::free) {
-    Insert insert = insert_through(tool_, placement.pose, first.at.s);
-    double open_side = 0;
-    if (spin_ != 0) {
-      const Vec3& normal = placement.first_normal;
-      const Mat3 turn = rotation(normal, spin_);
-      insert = {insert.center, turn * insert.u1, turn * insert.v1, turn * insert.w1};
-      open_side = -std::atan2(normal.dot(insert.w1), normal.dot(insert.v1));
-    }
-    tilt(first, insert, open_side, tilt_max_, starts, placement, counters);
-  } else {
-    placement.status = PositionStatus::one_contact;
-    finish(placement, certificate);
+  if (tool_.major_radius > 0 && !on_axis && !first.body && certificate.verdict == Verdict::free) return true;
+  placement.status = PositionStatus::one_contact;
+  finish(placement, certificate);
+  return false;
+}
+
+// From the upright tool of `placement` to the position.
+void Exact::spin_and_tilt(double spin,
+                          const Touch& first,
+                          const std::vector<Start>& starts,
+                          Placement& placement,
+                          Counters& counters) const {
+  Insert insert = insert_through(tool_, placement.pose, first.at.s);
+  double open_side = 0;
+  if (spin != 0) {
+    const Vec3& normal = placement.first_normal;
+    const Mat3 turn = rotation(normal, spin);
+    insert = {insert.center, turn * insert.u1, turn * insert.v1, turn * insert.w1};
+    open_side = -std::atan2(normal.dot(insert.w1), normal.dot(insert.v1));
   }
+  tilt(first, insert, open_side, tilt_max_, starts, placement, counters);
+}
+
+Placement Exact::place(const Vec2& at, Counters& counters) const {
+  thread_local std::vector<Start> starts;
+  Placement placement;
+  Touch first;
+  if (drop(at, starts, first, placement, counters)) spin_and_tilt(spin_, first, starts, placement, counters);
+  if (placement.pose.axis.allFinite()) placement.spin = spin_;
   return placement;
+}
+
+class Exact::Dropped final : public DroppedTool {
+ public:
+  Dropped(const Exact& method, const Vec2& at, Counters& counters)
+      : method_(method), tilts_(method.drop(at, starts_, first_, upright_, counters)) {}
+
+  Placement spun(double spin, Counters& counters) const override {
+    Placement placement = upright_;
+    if (tilts_) method_.spin_and_tilt(spin, first_, starts_, placement, counters);
+    if (placement.pose.axis.allFinite()) placement.spin = spin;
+    return placement;
+  }
+
+ private:
+  const Exact& method_;
+  std::vector<Start> starts_;
+  Touch first_;
+  Placement upright_;
+  bool tilts_;
+};
+
+std::unique_ptr<DroppedTool> Exact::drop(const Vec2& at, Counters& counters) const {
+  return std::make_unique<Dropped>(*this, at, counters);
 }
 
 // The insert's frame starts on the equator: v1 along the normal, the tool lying on the surface, and its far

@@ -26,12 +26,12 @@ std::string names_of(const std::vector<MethodInfo>& all) {
 }  // namespace
 
 const std::vector<MethodInfo>& methods() {
-  static const std::vector<MethodInfo> all{{"exact", "proven", exact_defaults(), make_exact},
-                                           {"vcrf", "sampled", vcrf_defaults(), make_vcrf},
-                                           {"drd", "sampled", drd_defaults(), make_drd},
-                                           {"dtm", "sampled", dstm_defaults(), make_dtm},
-                                           {"dstm", "sampled", dstm_defaults(), make_dstm},
-                                           {"pam", "sampled", pam_defaults(), make_pam}};
+  static const std::vector<MethodInfo> all{{"exact", "proven", true, exact_defaults(), make_exact},
+                                           {"vcrf", "sampled", false, vcrf_defaults(), make_vcrf},
+                                           {"drd", "sampled", false, drd_defaults(), make_drd},
+                                           {"dtm", "sampled", false, dstm_defaults(), make_dtm},
+                                           {"dstm", "sampled", true, dstm_defaults(), make_dstm},
+                                           {"pam", "sampled", false, pam_defaults(), make_pam}};
   return all;
 }
 
@@ -59,18 +59,23 @@ Placement Method::place(const GivenContact&, Counters&) const {
   throw std::invalid_argument("this method cannot start from given contacts; exact can");
 }
 
+std::unique_ptr<DroppedTool> Method::drop(const Vec2&, Counters&) const {
+  throw std::invalid_argument("spin_deg: this method cannot spin; exact and dstm can");
+}
+
 namespace {
 
-template <class Start>
-Placements place_each(const Method& method, const std::vector<Start>& starts, Context& context) {
+// place(i, out, work) fills the `each` positions of start i.
+template <class Place>
+Placements place_each(std::size_t starts, std::size_t each, Context& context, const Place& place) {
   Placements result;
-  result.positions.resize(starts.size());
+  result.positions.resize(starts * each);
   std::mutex adding;
-  context.start(starts.size());
-  for_each_range(starts.size(), kGrain, context, [&](std::size_t begin, std::size_t end) {
+  context.start(starts);
+  for_each_range(starts, kGrain, context, [&](std::size_t begin, std::size_t end) {
     Counters work;
     for (std::size_t i = begin; i < end && !context.cancelled(); ++i)
-      result.positions[i] = method.place(starts[i], work);
+      place(i, std::span(result.positions).subspan(i * each, each), work);
     const std::lock_guard lock(adding);
     result.counters.add(work);
   });
@@ -80,7 +85,32 @@ Placements place_each(const Method& method, const std::vector<Start>& starts, Co
 }  // namespace
 
 Placements place_all(const Method& method, const std::vector<Vec2>& points, Context& context) {
-  return place_each(method, points, context);
+  return place_each(points.size(), 1, context, [&](std::size_t i, auto out, Counters& work) {
+    out[0] = method.place(points[i], work);
+  });
+}
+
+Placements place_spins(const Method& method,
+                       const std::vector<Vec2>& points,
+                       std::span<const double> spins,
+                       Context& context) {
+  for (const double spin : spins) require(std::isfinite(spin), "spins_deg: must be finite angles");
+  return place_each(points.size(), spins.size(), context, [&](std::size_t i, auto out, Counters& work) {
+    const auto dropped = method.drop(points[i], work);
+    for (std::size_t k = 0; k < spins.size() && !context.cancelled(); ++k)
+      out[k] = dropped->spun(spins[k], work);
+  });
+}
+
+Placements place_spun(const Method& method,
+                      const std::vector<Vec2>& points,
+                      std::span<const double> spins,
+                      Context& context) {
+  require(points.size() == spins.size(), "spins_deg: must be one for each point");
+  for (const double spin : spins) require(std::isfinite(spin), "spins_deg: must be finite angles");
+  return place_each(points.size(), 1, context, [&](std::size_t i, auto out, Counters& work) {
+    out[0] = method.drop(points[i], work)->spun(spins[i], work);
+  });
 }
 
 Placements place_all(const Method& method,
@@ -93,7 +123,9 @@ Placements place_all(const Method& method,
     require(c.ring_direction.allFinite() && !c.ring_direction.isZero(0),
             "ring_directions: each must be a finite vector, not zero");
   }
-  return place_each(method, contacts, context);
+  return place_each(contacts.size(), 1, context, [&](std::size_t i, auto out, Counters& work) {
+    out[0] = method.place(contacts[i], work);
+  });
 }
 
 void judge_by_sampling(const SurfaceModel& model,

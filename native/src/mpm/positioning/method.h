@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -70,6 +71,16 @@ struct GivenContact {
   Vec3 ring_direction;
 };
 
+// The tool dropped over one plan point, to be spun and tilted as often as wanted; the drop is done once. Used
+// by one thread at a time, and not longer than its method lives.
+class DroppedTool {
+ public:
+  virtual ~DroppedTool() = default;
+  // The position with `spin` (radians) about the normal at P: to the bit what a method made with that spin
+  // places. What other spins were asked for does not matter.
+  virtual Placement spun(double spin, Counters& counters) const = 0;
+};
+
 // Positions one tool on one model. Set-up frame: the tool comes from +z. place() may be called from several
 // threads.
 class Method {
@@ -81,11 +92,15 @@ class Method {
   // on the ring's equator, 90 degrees on its bottom. Throws std::invalid_argument where the method has no
   // such entry.
   virtual Placement place(const GivenContact& at, Counters& counters) const;
+  // The tool dropped over plan point `at`, ready for any spin. Throws std::invalid_argument where the method
+  // cannot spin.
+  virtual std::unique_ptr<DroppedTool> drop(const Vec2& at, Counters& counters) const;
 };
 
 struct MethodInfo {
   const char* name;
   const char* guarantee;                  // "sampled" or "proven"
+  bool spins;                             // has Method::drop, and takes a spin
   std::map<std::string, double> numbers;  // option names and the source's defaults
   std::unique_ptr<Method> (*make)(const SurfaceModel&, const Tool&, const MethodOptions&);
 };
@@ -105,6 +120,17 @@ struct Placements {
 
 // Every point in parallel; the result does not depend on the number of threads.
 Placements place_all(const Method& method, const std::vector<Vec2>& points, Context& context);
+// Every point with every spin (radians), point by point: position i * spins.size() + k has spin k. Throws
+// std::invalid_argument where the method cannot spin.
+Placements place_spins(const Method& method,
+                       const std::vector<Vec2>& points,
+                       std::span<const double> spins,
+                       Context& context);
+// Every point with a spin of its own; points and spins have the same length.
+Placements place_spun(const Method& method,
+                      const std::vector<Vec2>& points,
+                      std::span<const double> spins,
+                      Context& context);
 // Throws std::invalid_argument for a face that the model does not have and a direction that is none.
 Placements place_all(const Method& method,
                      const SurfaceModel& model,

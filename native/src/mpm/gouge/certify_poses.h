@@ -1,0 +1,23 @@
+// The judge over many poses at once, whoever found them.
+#pragma once
+
+#include <vector>
+
+#include "mpm/base/context.h"
+#include "mpm/gouge/certify_pose.h"
+#include "mpm/surface/surface_model.h"
+
+namespace mpm {
+
+// One certificate a pose, in parallel; the result does not depend on the number of threads. `tolerance` (mm,
+// positive) is what may be cut in, and how sharp lo is for a pose that is free. Of a pose that cuts in deeper
+// the search goes on to the deepest point: hi is at most a tenth of the depth above lo. Requires finite
+// poses. Throws std::invalid_argument for a tolerance that is not positive. A cancelled context leaves the
+// rest undecided.
+std::vector<Certificate> certify_poses(const SurfaceModel& model,
+                                       const Tool& tool,
+                                       const std::vector<ToolPose>& poses,
+                                       double tolerance,
+                                       Context& context);
+
+}  // namespace mpm
