@@ -6,19 +6,25 @@ import csv
 import io
 import json
 import os
-from collections.abc import Sequence
+import time
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
+from .. import _core
 from . import job, planning
 from .errors import InputError
 from .job import Job
+from .model import Scene
+from .plan import Floats, Positions
 from .resources import EXAMPLES
 from .sections import suggestion
-from .stages import Progress
+from .stages import Progress, Stages
 
 # Thesis table 1.
 DEFAULT_SURFACES = ("convex", "concave", "saddle")
@@ -29,19 +35,22 @@ COLUMNS = {
     "surface": "surface",
     "threads": "threads",
     "positions": "positions",
-    "positions_per_second": "positions/s",
+    "microseconds_per_position": "µs/position",
+    "cpu_microseconds_per_position": "processor's",
+    "index_s": "index, s",
     "evaluations_per_position": "evaluations/position",
     "cells_per_position": "cells/position",
     "seeds_per_position": "seeds/position",
     "newton_steps_per_position": "Newton steps/position",
     "two_contacts": "two contacts",
-    "left_out": "left out",
-    "worst_clearance_mm": "worst clearance, mm",
-    "deep_clearance_mm": "99.9 % above, mm",
+    "failures": "failures",
+    "worst_gouge_mm": "worst gouge, mm",
+    "deep_gouge_mm": "99.9 % less deep, mm",
+    "gouging": "gouging",
 }
-# Of the usable positions this percentage is clearer than deep_clearance_mm.
+# Of the usable positions this percentage is less deep than deep_gouge_mm.
 DEEP_PERCENT = 99.9
-STAGES = "time per stage, s"
+MICROSECONDS = 1e6  # in a second
 
 Row = dict[str, Any]
 
@@ -65,9 +74,8 @@ def runs(surfaces: Sequence[str] | None, methods: Sequence[str] | None, threads:
     result = []
     for method in methods or planning.method_names():
         for surface, spec in jobs.items():
-            with_method = replace(
-                spec, method=replace(spec.method, name=method, options={}), source="--methods"
-            )
+            own = replace(spec.method, name=method, options={}, contact_spacing_mm=0.0)
+            with_method = replace(spec, method=own, source="--methods")
             planning.check_method(with_method)
             result += [Run(surface, replace(with_method, source=spec.source), count) for count in counts]
     return result
@@ -85,34 +93,69 @@ def _job_file(name: str) -> Path:
 
 
 def measure(run: Run, on_progress: Progress | None = None) -> Row:
-    """Compute the plan of one run and take its figures."""
-    plan = planning.plan(run.job, on_progress=on_progress, threads=run.threads)
-    facts = plan.report
-    clearance = plan.clearance[plan.usable, 1]
-    positions, worst = facts["positions"], facts["worst_position"]
-    return {
-        "method": run.job.method.name,
-        "surface": run.surface,
-        "threads": run.threads,
-        "positions": positions["count"],
-        "positions_per_second": facts["time"]["positions_per_second"],
-        "evaluations_per_position": facts["work"]["evaluations_per_position"],
-        "cells_per_position": facts["work"]["cells_per_position"],
-        "seeds_per_position": facts["work"]["seeds_per_position"],
-        "newton_steps_per_position": facts["work"]["newton_steps_per_position"],
-        "two_contacts": positions["statuses"].get("two_contacts", 0) / positions["count"],
-        "left_out": positions["left_out"],
-        "statuses": positions["statuses"],
-        "gouging": positions["gouging"],
-        "worst_clearance_mm": worst and worst["clearance_mm"],
-        "deep_clearance_mm": float(np.percentile(clearance, 100 - DEEP_PERCENT)) if len(clearance) else None,
-        "guarantee": positions["guarantee"],
-        "stages_s": facts["time"]["stages_s"],
+    """Place the run's positions, without any put in between, and judge them by the certificate."""
+    stages = Stages(on_progress, threads=run.threads)
+    scene = planning.prepare(run.job, None, stages)
+    row, positions = timed(run, scene, stages)
+    gouge_mm, proven_mm = _gouges(run.job, scene, positions, stages)
+    some = len(gouge_mm) > 0
+    return row | {
+        "gouging": int(np.count_nonzero(gouge_mm > run.job.tolerance.gouge_mm)),
+        "worst_gouge_mm": float(gouge_mm.max()) if some else None,
+        "deep_gouge_mm": float(np.percentile(gouge_mm, DEEP_PERCENT)) if some else None,
+        "proven_gouge_mm": float(proven_mm.max()) if some and np.isfinite(proven_mm).all() else None,
+        "guarantee": planning.guarantee_of(run.job),
     }
 
 
-def to_json(rows: Sequence[Row]) -> str:
-    return json.dumps({"rows": list(rows)}, indent=2, allow_nan=False) + "\n"
+def timed(run: Run, scene: Scene, stages: Stages) -> tuple[Row, Positions]:
+    """Place the run's positions: what they took, and how they ended. The index and the judging of them are not counted."""
+    footprint = planning.lay_out(run.job, scene, stages)
+    positioner = planning.make_positioner(run.job, scene, stages)
+    cpu_s = time.process_time()
+    placed = stages.run_native("positions", positioner.place, footprint.points)
+    cpu_s = time.process_time() - cpu_s
+    counters = placed.pop("counters")
+    positions = planning.as_positions(footprint, placed)
+    count = len(positions)
+    statuses = dict(Counter(positions.status.tolist()).most_common())
+    row = {
+        "method": run.job.method.name,
+        "surface": run.surface,
+        "threads": run.threads,
+        "positions": count,
+        "microseconds_per_position": MICROSECONDS * stages.seconds["positions"] / count,
+        "cpu_microseconds_per_position": MICROSECONDS * cpu_s / count,
+        "positions_per_second": count / stages.seconds["positions"],
+        "index_s": stages.seconds["index"],
+        **{f"{name}_per_position": value / count for name, value in counters.items()},
+        "two_contacts": statuses.get("two_contacts", 0) / count,
+        "failures": count - int(np.count_nonzero(positions.usable)),
+        "statuses": statuses,
+    }
+    return row, positions
+
+
+def _gouges(job: Job, scene: Scene, positions: Positions, stages: Stages) -> tuple[Floats, Floats]:
+    """(M,) mm for each usable position: how deep a point was met inside the tool, by the certificate or by dense
+    sampling, and how deep the certificate proves no point to lie; 0: it does not cut in."""
+    usable = positions.usable
+    found = stages.run_native(
+        "certificates",
+        _core.certify_poses,
+        scene.model,
+        scene.tool,
+        positions.tip[usable],
+        positions.axis[usable],
+        tolerance_mm=job.tolerance.gouge_mm,
+    )
+    planning.sample(scene, positions, stages, "certificates")
+    met = np.minimum(found["hi"], positions.clearance[usable, 1])
+    return np.maximum(0.0, -met), np.maximum(0.0, -found["lo"])
+
+
+def to_json(rows: Sequence[Row], more: Mapping[str, Any] = MappingProxyType({})) -> str:
+    return json.dumps({"rows": list(rows), **more}, indent=2, allow_nan=False) + "\n"
 
 
 def to_csv(rows: Sequence[Row]) -> str:
@@ -131,7 +174,7 @@ def _csv_value(value: Any) -> Any:
 
 def table(rows: Sequence[Row]) -> str:
     """The rows for people, in columns."""
-    cells = [(*COLUMNS.values(), STAGES), *map(_cells, rows)]
+    cells = [tuple(COLUMNS.values()), *map(_cells, rows)]
     widths = [max(map(len, column)) for column in zip(*cells)]
     return "\n".join(
         "  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip() for row in cells
@@ -139,12 +182,11 @@ def table(rows: Sequence[Row]) -> str:
 
 
 def _cells(row: Row) -> tuple[str, ...]:
-    stages = ", ".join(f"{stage} {seconds:.2f}" for stage, seconds in row["stages_s"].items())
-    return (*(_cell(row[name]) for name in COLUMNS), stages)
+    return tuple(_cell(row[name]) for name in COLUMNS)
 
 
 def _cell(value: Any) -> str:
-    """Large numbers whole, small ones to the nanometre."""
+    """Large numbers whole, those below 100 with a decimal, small ones to the nanometre."""
     if not isinstance(value, float):
         return "none" if value is None else str(value)
-    return f"{value:.0f}" if abs(value) >= 1 else f"{value:.6f}"
+    return f"{value:.0f}" if abs(value) >= 100 else f"{value:.1f}" if abs(value) >= 1 else f"{value:.6f}"

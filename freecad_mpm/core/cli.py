@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 import os
 import sys
 from collections.abc import Callable, Sequence
@@ -54,12 +55,13 @@ def run(parsed: argparse.Namespace, progress: ProgressLine) -> int:
         raise InputError(
             f"the native modules cannot be loaded ({one_line(error)}): build them with ./dev build"
         )
-    command: Command = getattr(commands, parsed.command)
+    command: Command = getattr(commands, parsed.function or parsed.command)
     return command(parsed, progress)
 
 
 def make_parser() -> Parser:
     parser = Parser(prog="freecad_mpm", description="Multi-point five-axis machining with toroidal cutters.")
+    parser.set_defaults(function="")  # a command's own, where a module has its name already
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=Parser)
 
     plan = commands.add_parser("plan", help="compute a job: positions, path, program, report")
@@ -89,6 +91,26 @@ def make_parser() -> Parser:
     )
     check.add_argument("--against", metavar="cl.csv", help="poses that the program must meet in their order")
 
+    spins = commands.add_parser("spins", help="all spins over some points: contacts, spacing, strip width")
+    spins.add_argument("job", metavar="JOB.toml")
+    spins.add_argument("--out", metavar="DIR", required=True, help="folder for spins.csv and the pictures")
+    spins.add_argument(
+        "--at",
+        metavar="X,Y",
+        nargs="+",
+        type=_point,
+        default=[],
+        help="footprint points in the set-up frame, mm; default: five of the job's footprint",
+    )
+    spins.add_argument(
+        "--step-deg", metavar="A", type=_positive, default=5.0, help="from spin to spin; default: 5"
+    )
+    spins.add_argument(
+        "--scallop-mm", metavar="H", type=_positive, default=0.05, help="of the strip; default: 0.05"
+    )
+    spins.set_defaults(function="spins_of")
+    _add_threads(spins)
+
     bench = commands.add_parser("bench", help="compare the methods and write bench.json")
     bench.add_argument(
         "--surfaces", nargs="+", metavar="NAME", help="shipped examples or job files; default: thesis"
@@ -96,12 +118,38 @@ def make_parser() -> Parser:
     bench.add_argument("--methods", nargs="+", metavar="NAME", help="default: all")
     bench.add_argument("--out", metavar="DIR", default="out", help="folder for bench.json; default: out")
     bench.add_argument("--csv", metavar="FILE", help="also write the rows to this file in --out, as CSV")
+    bench.add_argument(
+        "--scaling", action="store_true", help="instead: how exact's time grows with positions, size, tolerance"
+    )
+    bench.add_argument(
+        "--markdown", metavar="PAGE", nargs="+", default=[], help="pages whose generated tables are written anew"
+    )
     _add_threads(bench)
     return parser
 
 
 def _add_threads(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--threads", metavar="N", type=_threads, default=0, help="0, the default: all cores")
+
+
+def _point(text: str) -> tuple[float, float]:
+    try:
+        x, y = (float(one) for one in text.split(","))
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"must be X,Y such as 75,40, got '{text}'") from None
+    if not (math.isfinite(x) and math.isfinite(y)):
+        raise argparse.ArgumentTypeError(f"must be two finite numbers, got '{text}'")
+    return x, y
+
+
+def _positive(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not 0 < value < math.inf:
+        raise argparse.ArgumentTypeError(f"must be a positive number, got '{text}'")
+    return value
 
 
 def _threads(text: str) -> int:

@@ -3,9 +3,25 @@
 from __future__ import annotations
 
 from argparse import Namespace
+from dataclasses import replace
+from pathlib import Path as FilePath
 
 from . import bench as benchmark
-from . import job, output, planning, report, results
+from . import (
+    bench_degrees,
+    bench_picture,
+    bench_scaling,
+    bench_summary,
+    job,
+    markers,
+    output,
+    planning,
+    report,
+    results,
+    spacing,
+    spins,
+    spins_picture,
+)
 from .cl_file import read_csv
 from .console import ProgressLine
 from .info import info_lines
@@ -53,13 +69,70 @@ def check(arguments: Namespace, progress: ProgressLine) -> int:
 
 def bench(arguments: Namespace, progress: ProgressLine) -> int:
     output.check_folder(arguments.out)
+    pages = {name: markers.read(name) for name in arguments.markdown}
+    blocks, files = (_scaling if arguments.scaling else _comparison)(arguments, progress)
+    rewritten = {name: markers.replaced(text, blocks, name) for name, text in pages.items()}
+    _write(arguments.out, files)
+    for name, text in rewritten.items():
+        output.write_atomically(name, text)
+        print(f"  {name}")
+    return GOOD
+
+
+Files = dict[str, bytes | str]
+
+
+def _comparison(arguments: Namespace, progress: ProgressLine) -> tuple[dict[str, str], Files]:
     runs = benchmark.runs(arguments.surfaces, arguments.methods, arguments.threads)
     rows = [benchmark.measure(run, progress) for run in runs]
+    searches = [] if arguments.surfaces else bench_degrees.measure(runs, progress)
+    summary, claims = bench_summary.summary(rows), bench_summary.claims(rows, searches)
     progress.clear()
     print(benchmark.table(rows))
-    files: dict[str, bytes | str] = {"bench.json": benchmark.to_json(rows)}
+    for claim, source, ours in claims.rows:
+        print(f"\n{claim} ({source}):\n  {ours}")
+    files: Files = {
+        "bench.json": benchmark.to_json(rows, {"searches": searches}),
+        "bench.png": bench_picture.draw(rows),
+    }
     if arguments.csv:
         files[arguments.csv] = benchmark.to_csv(rows)
+    return {"comparison": summary.markdown(), "claims": claims.markdown()}, files
+
+
+def _scaling(arguments: Namespace, progress: ProgressLine) -> tuple[dict[str, str], Files]:
+    rows = bench_scaling.run(progress)
+    table = bench_scaling.table(rows).markdown()
+    progress.clear()
+    print(table)
+    files: Files = {"scaling.json": benchmark.to_json(rows)}
+    if arguments.csv:
+        files[arguments.csv] = benchmark.to_csv(rows)
+    return {"scaling": table}, files
+
+
+def spins_of(arguments: Namespace, progress: ProgressLine) -> int:
+    output.check_folder(arguments.out)
+    spec = job.load(arguments.job)
+    stages = Stages(progress, threads=arguments.threads)
+    scene = planning.prepare(spec, None, stages)
+    points = spins.chosen_points(spec, scene, arguments.at, stages)
+    found = spins.spread(spec, scene, points, spins.circle(arguments.step_deg), arguments.scallop_mm, stages)
+    name = f"{FilePath(spec.part.file).name}, {spec.method.name}"
+    along = spacing.feed(spec.footprint.direction_deg)
+    files: dict[str, bytes | str] = {
+        "spins.csv": spins.to_csv(found),
+        "spins.png": spins_picture.draw_spread(found, along, f"{name}: all spins over {len(points)} points"),
+    }
+    if spec.method.contact_spacing_mm:
+        plain = replace(spec, method=replace(spec.method, contact_spacing_mm=0.0))
+        before, after = (planning.plan(one, None, progress, None, arguments.threads) for one in (plain, spec))
+        wanted = f"{spec.method.contact_spacing_mm:g} mm {spacing.MEASURES[spec.method.spacing_measure]}"
+        files["spacing.png"] = spins_picture.draw_control(before, after, f"{name}: contacts {wanted}")
+        progress.clear()
+        print(spacing.sentence(after.report["contact_spacing"]))
+    progress.clear()
+    print(*spins.summary(found), sep="\n")
     _write(arguments.out, files)
     return GOOD
 

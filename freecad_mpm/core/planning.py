@@ -174,7 +174,7 @@ def place_and_prove(job: Job, scene: Scene, footprint: Footprint, stages: Stages
         for name, value in placed.pop("counters").items():
             counters[name] += value
         passes = np.zeros(len(points), dtype=np.int64)
-        return as_positions(scene, Footprint(points, passes), placed, stages, motions.STAGE)
+        return sample(scene, as_positions(Footprint(points, passes), placed), stages, motions.STAGE)
 
     proven = motions.prove(job, scene, footprint.points, positions, place_more, stages)
     return Placed(
@@ -221,17 +221,18 @@ def place(
         else:
             placed = stages.run_native("positions", positioner.place, footprint.points)
     counters = placed.pop("counters")
-    return as_positions(scene, footprint, placed, stages, "judge"), nearest, counters
+    return sample(scene, as_positions(footprint, placed), stages, "judge"), nearest, counters
 
 
-def as_positions(
-    scene: Scene, footprint: Footprint, placed: dict[str, Any], stages: Stages, stage: str
-) -> Positions:
-    """What a positioner placed, as Positions; a second opinion by dense sampling may lower the upper bounds of their
-    clearances."""
-    placed["status"] = np.array(_core.POSITION_STATUS)[placed["status"]]
+def as_positions(footprint: Footprint, placed: dict[str, Any]) -> Positions:
+    """What a positioner placed over the footprint."""
+    status = np.array(_core.POSITION_STATUS)[placed.pop("status")]
     of_footprint = np.zeros(len(footprint.points), dtype=bool)
-    positions = Positions(**placed, pass_index=footprint.pass_index, inserted=of_footprint)
+    return Positions(**placed, status=status, pass_index=footprint.pass_index, inserted=of_footprint)
+
+
+def sample(scene: Scene, positions: Positions, stages: Stages, stage: str) -> Positions:
+    """The same positions; a second opinion by dense sampling has lowered the upper bounds of their clearances."""
     usable = positions.usable
     sampled = stages.run_native(
         stage,

@@ -18,7 +18,7 @@ from .model import Scene
 from .plan import Floats, Names
 from .stages import Stages
 
-DEFAULT_STEP_DEG = 5.0
+DEFAULT_PLACES = ((0.25, 0.25), (0.75, 0.25), (0.5, 0.55), (0.25, 0.75), (0.75, 0.75))
 HEADER = (
     "x,y,spin_deg,status,q_x,q_y,q_z,tilt_deg,axis_x,axis_y,axis_z,clearance_lo_mm,across_mm,direct_mm,strip_mm"
 )
@@ -94,6 +94,34 @@ def _widths(
                 scene.tool, tip[i, k], axis[i, k], contacts[i, k, 0], ground, along, scallop_mm
             )
     return widths
+
+
+def chosen_points(job: Job, scene: Scene, wanted: Sequence[tuple[float, float]], stages: Stages) -> Floats:
+    """The wanted points (N, 2), or those of the job's footprint nearest to DEFAULT_PLACES of its box."""
+    if wanted:
+        return np.array(wanted, dtype=float)
+    points = planning.lay_out(job, scene, stages).points
+    low, high = points.min(axis=0), points.max(axis=0)
+    places = low + np.array(DEFAULT_PLACES) * (high - low)
+    return points[[int(np.argmin(np.linalg.norm(points - at, axis=1))) for at in places]]
+
+
+def summary(found: Spread) -> list[str]:
+    """One line a point for people: ranges over all spins with two contacts."""
+    lines = []
+    for i, (x, y) in enumerate(found.points):
+        two = found.status[i] == "two_contacts"
+        if not two.any():
+            lines.append(f"({x:g}, {y:g}): no spin has two contacts")
+            continue
+        ranges = (
+            f"{name} {np.nanmin(values[i, two]):.2f} to {np.nanmax(values[i, two]):.2f} mm"
+            for name, values in (("PQ", found.direct), ("across", found.across), ("strip", found.strip))
+        )
+        lines.append(
+            f"({x:g}, {y:g}): {np.count_nonzero(two)} of {len(two)} spins have two contacts, {', '.join(ranges)}"
+        )
+    return lines
 
 
 def circle(step_deg: float) -> Floats:

@@ -1,0 +1,144 @@
+"""The comparison: what it measures, and that the pages' tables are what it makes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from freecad_mpm import _core
+from freecad_mpm.core import bench, bench_degrees, bench_picture, bench_scaling, bench_summary, markers, planning
+from freecad_mpm.core.bench import Row
+from freecad_mpm.core.bench_summary import Table
+from freecad_mpm.core.errors import InputError
+from freecad_mpm.core.faces import FaceArrays, to_core
+from freecad_mpm.core.stages import Stages
+
+ROOT = Path(__file__).resolve().parents[2]
+README, COMPARISON = ROOT / "README.md", ROOT / "docs" / "comparison.md"
+SUBSET = ("exact", "vcrf")
+TIMES = ("time", "µs a position", "index, s", "times the base")
+
+
+@pytest.fixture(scope="module")
+def rows() -> list[Row]:
+    """Two methods on all three surfaces, one thread."""
+    return [bench.measure(run) for run in bench.runs(None, SUBSET, 1)]
+
+
+def table_in(page: Path, name: str) -> list[dict[str, str]]:
+    block = markers.block(page.read_text(), name)
+    assert block, f"{page.name} has no block {name}"
+    lines = [[cell.strip() for cell in line.strip("|").split("|")] for line in block.splitlines()]
+    return [dict(zip(lines[0], line)) for line in lines[2:]]
+
+
+def without_times(line: dict[str, str]) -> dict[str, str]:
+    return {name: value for name, value in line.items() if name not in TIMES}
+
+
+def as_lines(table: Table) -> list[dict[str, str]]:
+    return [dict(zip(table.headings, map(str, row))) for row in table.rows]
+
+
+@pytest.mark.parametrize(("page", "name"), [(README, "summary"), (COMPARISON, "comparison")])
+def test_the_page_holds_what_a_run_counts(rows: list[Row], page: Path, name: str) -> None:
+    """Written by `bench --threads 1 --markdown README.md docs/comparison.md`; times aside, it must not be stale."""
+    printed = table_in(page, name)
+    assert [line["method"] for line in printed] == [f"`{method}`" for method in planning.method_names()]
+    now = as_lines(bench_summary.blocks(rows, [])[name])
+    assert list(printed[0]) == list(now[0])
+    for line in now:
+        theirs = next(one for one in printed if one["method"] == line["method"])
+        assert without_times(theirs) == without_times(line)
+
+
+def test_the_pages_hold_every_claim_and_every_case() -> None:
+    claims = [line["claim"] for line in table_in(COMPARISON, "claims")]
+    names = [*bench.DEFAULT_SURFACES, *(f"bi-degree {degree}" for degree in bench_degrees.DEGREES)]
+    assert claims[: len(names)] == [f"{name}: fewer than 5 seeds and 20 iterations" for name in names]
+    assert len(claims) == len(names) + 2
+    cases = [line["what"] for line in table_in(COMPARISON, "scaling")]
+    assert cases == [case.name for case in bench_scaling.cases()]
+
+
+def test_time_is_that_of_the_positions_alone(rows: list[Row]) -> None:
+    for row in rows:
+        assert row["positions"] == 760
+        assert row["positions_per_second"] == pytest.approx(1e6 / row["microseconds_per_position"])
+    assert all(row["worst_gouge_mm"] <= 0.001 for row in rows if row["method"] == "exact")
+
+
+def test_the_certificate_judges_and_not_the_method(rows: list[Row]) -> None:
+    """vcrf calls none of its positions a gouge; the certificate finds those that an independent re-implementation of the
+    thesis has (0.0074 mm on the saddle) and agrees with dense sampling."""
+    row = next(row for row in rows if (row["method"], row["surface"]) == ("vcrf", "saddle"))
+    assert row["worst_gouge_mm"] == pytest.approx(0.0074, abs=0.0002)
+    assert row["worst_gouge_mm"] <= row["proven_gouge_mm"] <= 1.1 * row["worst_gouge_mm"] + 1e-6
+    assert row["gouging"] > 0
+
+
+def test_certificates_of_poses_agree_with_a_floor() -> None:
+    knots = np.array([0.0, 0.0, 1.0, 1.0])
+    poles = np.array([[[0, 0, 0], [0, 100, 0]], [[100, 0, 0], [100, 100, 0]]], dtype=float)
+    floor = _core.SurfaceModel([to_core(FaceArrays("Face1", "plane", 1, 1, knots, knots, poles))])
+    tips = np.array([[50.0, 50.0, 0.0], [50.0, 50.0, -0.25]])
+    found = _core.certify_poses(
+        floor,
+        _core.Tool(6.7, 6.0, 6.0, 40.0),
+        tips,
+        np.tile([0.0, 0.0, 1.0], (2, 1)),
+        tolerance_mm=0.001,
+        context=_core.Context(2),
+    )
+    assert [_core.VERDICTS[code] for code in found["verdict"]] == ["free", "gouge"]
+    assert found["lo"][1] <= -0.25 + 1e-9 and -0.25 - 1e-9 <= found["hi"][1] <= -0.25 / 1.1
+
+
+@pytest.mark.parametrize("poles", [(7, 12), (4, 9)])
+def test_a_refined_surface_is_the_same_surface(poles: tuple[int, int]) -> None:
+    face = bench_degrees.wave(3)
+    fine = bench_scaling.refine(face, poles)
+    assert fine.poles.shape == (*poles, 3)
+    u, v = np.random.default_rng(3).uniform(size=(2, 50))
+    one, two = (
+        _core.BSplineSurface(f.degree_u, f.degree_v, f.knots_u, f.knots_v, f.poles).evaluate(u, v)
+        for f in (face, fine)
+    )
+    assert one == pytest.approx(two, abs=1e-9)
+
+
+@pytest.mark.parametrize("degree", bench_degrees.DEGREES)
+def test_the_surfaces_by_degree_have_all_kinds_of_ground(degree: int) -> None:
+    face = bench_degrees.wave(degree)
+    surface = _core.BSplineSurface(degree, degree, face.knots_u, face.knots_v, face.poles)
+    u, v = (one.ravel() for one in np.meshgrid(np.linspace(0, 1, 15), np.linspace(0, 1, 15)))
+    s = surface.evaluate(u, v)
+    normal = np.cross(s[:, 1], s[:, 2])
+    l, m, n = (np.einsum("ij,ij->i", s[:, k], normal) for k in (3, 4, 5))
+    bent = l * n - m * m
+    assert (bent < 0).any() and ((bent > 0) & (l < 0)).any() and ((bent > 0) & (l > 0)).any()
+
+
+def test_the_picture_is_one(rows: list[Row]) -> None:
+    assert bench_picture.draw(rows).startswith(b"\x89PNG")
+
+
+def test_blocks_are_replaced_and_a_page_without_any_is_named(tmp_path: Path) -> None:
+    page = "a\n<!-- begin x -->\nold\n<!-- end x -->\nb\n<!-- begin y -->\n<!-- end y -->\n"
+    now = markers.replaced(page, {"x": "new \\1", "z": "other"}, "page.md")
+    assert now == page.replace("old", "new \\1")
+    assert markers.replaced(now, {"x": "new \\1"}, "page.md") == now
+    with pytest.raises(InputError, match="page.md: has none of the blocks <!-- begin z -->"):
+        markers.replaced(page, {"z": "other"}, "page.md")
+    with pytest.raises(InputError, match="nowhere.md: cannot be read"):
+        markers.read(str(tmp_path / "nowhere.md"))
+
+
+def test_a_row_counts_its_failures() -> None:
+    (run,) = bench.runs(["concave"], ["dtm"], 1)
+    stages = Stages(threads=1)
+    few = planning.prepare(run.job, None, stages)
+    row, positions = bench.timed(run, few, stages)
+    assert row["failures"] == np.count_nonzero(~positions.usable) == 288  # as an independent re-implementation
