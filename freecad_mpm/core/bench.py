@@ -137,8 +137,8 @@ def timed(run: Run, scene: Scene, stages: Stages) -> tuple[Row, Positions]:
 
 
 def _gouges(job: Job, scene: Scene, positions: Positions, stages: Stages) -> tuple[Floats, Floats]:
-    """(M,) mm for each usable position: how deep a point was met inside the tool, by the certificate or by dense
-    sampling, and how deep the certificate proves no point to lie; 0: it does not cut in."""
+    """(M,) mm for each usable position: how deep a point the certificate met inside the tool, and how deep it proves no
+    point to lie; 0: the position does not cut in."""
     usable = positions.usable
     found = stages.run_native(
         "certificates",
@@ -149,9 +149,7 @@ def _gouges(job: Job, scene: Scene, positions: Positions, stages: Stages) -> tup
         positions.axis[usable],
         tolerance_mm=job.tolerance.gouge_mm,
     )
-    planning.sample(scene, positions, stages, "certificates")
-    met = np.minimum(found["hi"], positions.clearance[usable, 1])
-    return np.maximum(0.0, -met), np.maximum(0.0, -found["lo"])
+    return np.maximum(0.0, -found["hi"]), np.maximum(0.0, -found["lo"])
 
 
 def to_json(rows: Sequence[Row], more: Mapping[str, Any] = MappingProxyType({})) -> str:

@@ -1,7 +1,7 @@
 """Seeds and iterations of `dstm` by the published count: on the thesis' bicubics, and on surfaces of bi-degree 2 to 5.
 
 The paper's own surfaces are not printed in what we have of it. Ours of bi-degree n are (n + 1)^2 control points over
-150 x 150 mm whose heights wave along the diagonal, so that each has convex, concave and saddle-shaped ground."""
+150 x 150 mm whose heights wave both ways."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ from .stages import Progress, Stages
 
 METHOD = "dstm"
 DEGREES = (2, 3, 4, 5)
-SIZE_MM, BASE_MM, WAVE_MM = 150.0, 80.0, 25.0
+SIZE_MM, BASE_MM, WAVE_MM = 150.0, 80.0, 20.0
 
 
 def wave(degree: int) -> FaceArrays:
     """The surface of bi-degree `degree`."""
     at = np.linspace(0.0, 1.0, degree + 1)
     x, y = np.meshgrid(at, at, indexing="ij")
-    height = BASE_MM + WAVE_MM * np.sin(np.pi * (x + 0.5)) * np.cos(2 * np.pi * (y - x))
+    height = BASE_MM + WAVE_MM * np.cos(5.0 * x + 0.4) * np.cos(4.0 * y - 0.3)
     knots = np.repeat([0.0, 1.0], degree + 1)
     poles = np.dstack((SIZE_MM * x, SIZE_MM * y, height))
     return FaceArrays("Face1", "bspline", degree, degree, knots, knots, poles)

@@ -9,6 +9,16 @@ import numpy as np
 
 from .bench import Row
 
+# The columns that the README shows.
+SHORT = (
+    "method",
+    "worst gouge, mm",
+    "two contacts, %",
+    "failures",
+    "surface points or cells a position",
+    "time",
+    "guarantee",
+)
 HEADINGS = (
     "method",
     "worst gouge, mm",
@@ -39,8 +49,18 @@ class Table:
         lines = [self.headings, ["---"] * len(self.headings), *self.rows]
         return "\n".join("| " + " | ".join(line) + " |" for line in lines)
 
+    def columns(self, headings: Sequence[str]) -> Table:
+        which = [self.headings.index(heading) for heading in headings]
+        return Table(headings, [[row[i] for i in which] for row in self.rows])
 
-def summary(rows: Sequence[Row]) -> Table:
+
+def blocks(rows: Sequence[Row], searches: Sequence[Row]) -> dict[str, Table]:
+    """The generated tables by the names of their blocks in the pages."""
+    whole = comparison(rows)
+    return {"summary": whole.columns(SHORT), "comparison": whole, "claims": claims(rows, searches)}
+
+
+def comparison(rows: Sequence[Row]) -> Table:
     """One row a method, its figures on the surfaces in their order; one thread, where there are several counts."""
     single = single_threaded(rows)
     units = {row["surface"]: row["cpu_microseconds_per_position"] for row in single if row["method"] == UNIT}
@@ -66,11 +86,15 @@ def _summary_row(rows: Sequence[Row], units: dict[str, float]) -> list[str]:
         each(lambda row: f"{100 * row['two_contacts']:.1f}"),
         each(lambda row: str(row["failures"])),
         each(lambda row: f"{row['evaluations_per_position'] + row['cells_per_position']:.0f}"),
-        each(lambda row: f"{row['seeds_per_position']:.1f}"),
+        each(lambda row: _count(row["seeds_per_position"])),
         each(lambda row: f"{row['newton_steps_per_position']:.0f}"),
         each(lambda row: _time(row, units)),
         str(rows[0]["guarantee"]),
     ]
+
+
+def _count(value: float) -> str:
+    return f"{value:.0f}" if value >= 100 or value == 0 else f"{value:.1f}"
 
 
 def _depth(value: float | None) -> str:

@@ -86,10 +86,10 @@ def _comparison(arguments: Namespace, progress: ProgressLine) -> tuple[dict[str,
     runs = benchmark.runs(arguments.surfaces, arguments.methods, arguments.threads)
     rows = [benchmark.measure(run, progress) for run in runs]
     searches = [] if arguments.surfaces else bench_degrees.measure(runs, progress)
-    summary, claims = bench_summary.summary(rows), bench_summary.claims(rows, searches)
+    tables = bench_summary.blocks(rows, searches)
     progress.clear()
     print(benchmark.table(rows))
-    for claim, source, ours in claims.rows:
+    for claim, source, ours in tables["claims"].rows:
         print(f"\n{claim} ({source}):\n  {ours}")
     files: Files = {
         "bench.json": benchmark.to_json(rows, {"searches": searches}),
@@ -97,7 +97,7 @@ def _comparison(arguments: Namespace, progress: ProgressLine) -> tuple[dict[str,
     }
     if arguments.csv:
         files[arguments.csv] = benchmark.to_csv(rows)
-    return {"comparison": summary.markdown(), "claims": claims.markdown()}, files
+    return {name: table.markdown() for name, table in tables.items()}, files
 
 
 def _scaling(arguments: Namespace, progress: ProgressLine) -> tuple[dict[str, str], Files]:

@@ -71,12 +71,13 @@ def test_time_is_that_of_the_positions_alone(rows: list[Row]) -> None:
 
 
 def test_the_certificate_judges_and_not_the_method(rows: list[Row]) -> None:
-    """vcrf calls none of its positions a gouge; the certificate finds those that an independent re-implementation of the
-    thesis has (0.0074 mm on the saddle) and agrees with dense sampling."""
-    row = next(row for row in rows if (row["method"], row["surface"]) == ("vcrf", "saddle"))
-    assert row["worst_gouge_mm"] == pytest.approx(0.0074, abs=0.0002)
-    assert row["worst_gouge_mm"] <= row["proven_gouge_mm"] <= 1.1 * row["worst_gouge_mm"] + 1e-6
-    assert row["gouging"] > 0
+    """vcrf calls none of its positions a gouge; the certificate finds what an independent re-implementation of the thesis
+    has: 0.0032, 0.0040 and 0.0074 mm."""
+    worst = {row["surface"]: row["worst_gouge_mm"] for row in rows if row["method"] == "vcrf"}
+    right = {"convex": 0.0032, "concave": 0.0040, "saddle": 0.0074}
+    assert worst == pytest.approx(right, abs=0.0002)
+    assert all(row["gouging"] > 0 for row in rows if row["method"] == "vcrf")
+    assert all(row["proven_gouge_mm"] <= 0.001 for row in rows if row["method"] == "exact")
 
 
 def test_certificates_of_poses_agree_with_a_floor() -> None:
@@ -93,7 +94,7 @@ def test_certificates_of_poses_agree_with_a_floor() -> None:
         context=_core.Context(2),
     )
     assert [_core.VERDICTS[code] for code in found["verdict"]] == ["free", "gouge"]
-    assert found["lo"][1] <= -0.25 + 1e-9 and -0.25 - 1e-9 <= found["hi"][1] <= -0.25 / 1.1
+    assert found["lo"][1] <= -0.25 + 1e-9 and -0.25 - 1e-9 <= found["hi"][1] <= -0.25 / 1.001
 
 
 @pytest.mark.parametrize("poles", [(7, 12), (4, 9)])
@@ -110,15 +111,13 @@ def test_a_refined_surface_is_the_same_surface(poles: tuple[int, int]) -> None:
 
 
 @pytest.mark.parametrize("degree", bench_degrees.DEGREES)
-def test_the_surfaces_by_degree_have_all_kinds_of_ground(degree: int) -> None:
+def test_the_surfaces_by_degree_have_it_both_ways(degree: int) -> None:
+    """The derivative of that order along a parameter line is constant and not zero: no lower degree would do."""
     face = bench_degrees.wave(degree)
-    surface = _core.BSplineSurface(degree, degree, face.knots_u, face.knots_v, face.poles)
-    u, v = (one.ravel() for one in np.meshgrid(np.linspace(0, 1, 15), np.linspace(0, 1, 15)))
-    s = surface.evaluate(u, v)
-    normal = np.cross(s[:, 1], s[:, 2])
-    l, m, n = (np.einsum("ij,ij->i", s[:, k], normal) for k in (3, 4, 5))
-    bent = l * n - m * m
-    assert (bent < 0).any() and ((bent > 0) & (l < 0)).any() and ((bent > 0) & (l > 0)).any()
+    assert face.poles.shape == (degree + 1, degree + 1, 3)
+    for direction in (0, 1):
+        highest = np.diff(face.poles[..., 2], n=degree, axis=direction)
+        assert np.abs(highest).max() > 1
 
 
 def test_the_picture_is_one(rows: list[Row]) -> None:

@@ -76,19 +76,18 @@ py::dict motions(const SurfaceModel& model,
 
 void bind_gouge(py::module_& m) {
   m.attr("VERDICTS") = py::make_tuple("free", "gouge", "undecided");
-  m.def(
-      "certify_poses",
-      &poses,
-      py::arg("model"),
-      py::arg("tool"),
-      py::arg("tips"),
-      py::arg("axes"),
-      py::kw_only(),
-      py::arg("tolerance_mm"),
-      py::arg("context"),
-      "Certificates of the poses tips, axes (N, 3). Dict of lo, hi (N,) mm, proven and met bounds of the "
-      "clearance (of a pose deeper than tolerance_mm at most a tenth of the depth apart), verdict (N,) codes "
-      "of VERDICTS, cells (N,).");
+  m.def("certify_poses",
+        &poses,
+        py::arg("model"),
+        py::arg("tool"),
+        py::arg("tips"),
+        py::arg("axes"),
+        py::kw_only(),
+        py::arg("tolerance_mm"),
+        py::arg("context"),
+        "Certificates of the poses tips, axes (N, 3). Dict of lo, hi (N,) mm, proven and met bounds of the "
+        "clearance (lo of a pose deeper than tolerance_mm: within a thousandth of the depth, or -inf), "
+        "verdict (N,) codes of VERDICTS, cells (N,).");
   m.def("certify_motions",
         &motions,
         py::arg("model"),

@@ -24,7 +24,8 @@ TEST(CertifyPoses, AToolOnAFloorIsAsDeepAsItStands) {
     EXPECT_EQ(found[i].verdict, Verdict::gouge);
     EXPECT_LE(found[i].lo, -depth + 1e-9);  // no less than the truth
     EXPECT_GE(found[i].hi, -depth - 1e-9);
-    EXPECT_LE(found[i].hi, -depth / 1.1);
+    EXPECT_LE(found[i].hi, -depth / 1.001);
+    EXPECT_GE(found[i].lo, -depth * 1.002);
   }
 }
 

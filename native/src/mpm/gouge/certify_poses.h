@@ -11,9 +11,10 @@ namespace mpm {
 
 // One certificate a pose, in parallel; the result does not depend on the number of threads. `tolerance` (mm,
 // positive) is what may be cut in, and how sharp lo is for a pose that is free. Of a pose that cuts in deeper
-// the search goes on to the deepest point: hi is at most a tenth of the depth above lo. Requires finite
-// poses. Throws std::invalid_argument for a tolerance that is not positive. A cancelled context leaves the
-// rest undecided.
+// hi is the deepest surface point met, by dense sampling and by the search; lo is at most a thousandth of the
+// depth below it, or -infinity where that could not be proven within the budget. Requires finite poses.
+// Throws std::invalid_argument for a tolerance that is not positive. A cancelled context leaves the rest
+// undecided.
 std::vector<Certificate> certify_poses(const SurfaceModel& model,
                                        const Tool& tool,
                                        const std::vector<ToolPose>& poses,
