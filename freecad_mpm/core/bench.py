@@ -109,7 +109,7 @@ def measure(run: Run, on_progress: Progress | None = None) -> Row:
 
 
 def timed(run: Run, scene: Scene, stages: Stages) -> tuple[Row, Positions]:
-    """Place the run's positions: what they took, and how they ended. The index and the judging of them are not counted."""
+    """Place the run's positions: what they took, and how they ended. Neither index nor judging is counted."""
     footprint = planning.lay_out(run.job, scene, stages)
     positioner = planning.make_positioner(run.job, scene, stages)
     cpu_s = time.process_time()

@@ -25,7 +25,9 @@ def draw(rows: Sequence[Row]) -> bytes:
     figure = Figure(figsize=(WIDTH_PX / DPI, HEIGHT_PX / DPI), dpi=DPI, facecolor="white")
     FigureCanvasAgg(figure)
     figure.text(0.02, 0.96, "Positions of one tool by each method, one thread", fontsize=14, weight="bold")
-    panels = figure.subplots(2, 2, gridspec_kw=dict(left=0.07, right=0.98, top=0.88, bottom=0.08, hspace=0.35))
+    panels = figure.subplots(
+        2, 2, gridspec_kw=dict(left=0.07, right=0.98, top=0.88, bottom=0.08, hspace=0.35)
+    )
     _bars(panels[0, 0], rows, "cpu_microseconds_per_position", "Time of a position", "µs", log=True)
     _bars(panels[0, 1], rows, "worst_gouge_mm", "Worst gouge (no bar: below 0.00001)", "mm", log=True)
     _bars(panels[1, 0], rows, "work", "Surface points or cells a position", "count", log=True)

@@ -20,7 +20,17 @@ SURFACE, METHOD = "saddle", "exact"
 FEW, MANY = 10, 150  # passes; MANY squared is 22,500 positions
 POLES = (312, 323)
 COARSE_MM, FINE_MM = 1e-2, 1e-5
-HEADINGS = ("what", "positions", "threads", "poles", "gouge tolerance, mm", "µs a position", "index, s", "cells", "times the base")
+HEADINGS = (
+    "what",
+    "positions",
+    "threads",
+    "poles",
+    "gouge tolerance, mm",
+    "µs a position",
+    "index, s",
+    "cells",
+    "times the base",
+)
 
 
 @dataclass(frozen=True)
@@ -41,7 +51,10 @@ def cases() -> list[Case]:
     spec = replace(spec, method=replace(spec.method, name=METHOD))
     one_patch = list(planning.prepare(spec, None, Stages()).machined)
     refined = [refine(face, POLES) for face in one_patch]
-    many = replace(spec, footprint=replace(spec.footprint, side_step_mm=150 / (MANY - 1), forward_step_mm=150 / (MANY - 1)))
+    many = replace(
+        spec,
+        footprint=replace(spec.footprint, side_step_mm=150 / (MANY - 1), forward_step_mm=150 / (MANY - 1)),
+    )
     coarse, fine = (
         replace(spec, tolerance=replace(spec.tolerance, gouge_mm=depth)) for depth in (COARSE_MM, FINE_MM)
     )

@@ -129,7 +129,9 @@ def claims(rows: Sequence[Row], searches: Sequence[Row]) -> Table:
 
 
 def _ratios(slow: Sequence[Row], fast: Sequence[Row]) -> str:
-    times = [a["cpu_microseconds_per_position"] / b["cpu_microseconds_per_position"] for a, b in zip(slow, fast)]
+    times = [
+        a["cpu_microseconds_per_position"] / b["cpu_microseconds_per_position"] for a, b in zip(slow, fast)
+    ]
     points = [a["evaluations_per_position"] / b["evaluations_per_position"] for a, b in zip(slow, fast)]
     names = " / ".join(row["surface"] for row in slow)
     return f"{_joined(times)} times as long, {_joined(points)} times the surface points ({names})"

@@ -119,10 +119,16 @@ def make_parser() -> Parser:
     bench.add_argument("--out", metavar="DIR", default="out", help="folder for bench.json; default: out")
     bench.add_argument("--csv", metavar="FILE", help="also write the rows to this file in --out, as CSV")
     bench.add_argument(
-        "--scaling", action="store_true", help="instead: how exact's time grows with positions, size, tolerance"
+        "--scaling",
+        action="store_true",
+        help="instead: how exact's time grows with positions, size, tolerance",
     )
     bench.add_argument(
-        "--markdown", metavar="PAGE", nargs="+", default=[], help="pages whose generated tables are written anew"
+        "--markdown",
+        metavar="PAGE",
+        nargs="+",
+        default=[],
+        help="pages whose generated tables are written anew",
     )
     _add_threads(bench)
     return parser

@@ -68,7 +68,8 @@ class FootprintSpec(Section):
 class MethodSpec(Section):
     """How the tool is placed: the method's name, the spin, the tilt limit, and options of its own.
 
-    With a `contact_spacing_mm` other than 0 every position gets the spin that sets its contacts so far apart."""
+    With a `contact_spacing_mm` other than 0 every position gets the spin that sets its contacts so far apart.
+    """
 
     table: ClassVar[str] = "method"
 

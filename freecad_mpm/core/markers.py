@@ -31,7 +31,9 @@ def replaced(text: str, blocks: Mapping[str, str], page: str) -> str:
         raise InputError(f"{page}: has none of the blocks {wanted}")
     for name in known:
         content = blocks[name]
-        text = re.sub(_pattern(name), lambda found: f"{found[1]}\n{content}\n{found[3]}", text, flags=re.DOTALL)
+        text = re.sub(
+            _pattern(name), lambda found: f"{found[1]}\n{content}\n{found[3]}", text, flags=re.DOTALL
+        )
     return text
 
 

@@ -177,9 +177,7 @@ def place_and_prove(job: Job, scene: Scene, footprint: Footprint, stages: Stages
         return sample(scene, as_positions(Footprint(points, passes), placed), stages, motions.STAGE)
 
     proven = motions.prove(job, scene, footprint.points, positions, place_more, stages)
-    return Placed(
-        proven.positions, proven.cut_clearance, nearest, counters | {"motion_cells": proven.cells}
-    )
+    return Placed(proven.positions, proven.cut_clearance, nearest, counters | {"motion_cells": proven.cells})
 
 
 def make_positioner(job: Job, scene: Scene, stages: Stages) -> _core.Positioner:
@@ -271,7 +269,7 @@ def link(job: Job, scene: Scene, positions: Positions, cuts: Floats | None, stag
 
 
 def cut_length_max_mm(job: Job) -> float:
-    """How far apart (mm) neighbours of a pass may be to be joined by a cut; a spun tool goes round its contact besides."""
+    """How far apart (mm) neighbours of a pass may be to be joined by a cut; a spun tool also goes round its contact."""
     swing = 2 * job.tool.radius_mm if job.method.contact_spacing_mm else 0.0
     return CUT_LENGTH_STEPS * job.footprint.forward_step_mm + swing
 

@@ -19,9 +19,7 @@ from .plan import Floats, Names
 from .stages import Stages
 
 DEFAULT_PLACES = ((0.25, 0.25), (0.75, 0.25), (0.5, 0.55), (0.25, 0.75), (0.75, 0.75))
-HEADER = (
-    "x,y,spin_deg,status,q_x,q_y,q_z,tilt_deg,axis_x,axis_y,axis_z,clearance_lo_mm,across_mm,direct_mm,strip_mm"
-)
+HEADER = "x,y,spin_deg,status,q_x,q_y,q_z,tilt_deg,axis_x,axis_y,axis_z,clearance_lo_mm,across_mm,direct_mm,strip_mm"
 
 
 @dataclass(frozen=True)

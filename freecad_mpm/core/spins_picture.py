@@ -1,4 +1,4 @@
-"""Pictures of spin: the spread over all spins (spins.png), and contact spacing with and without control (spacing.png)."""
+"""Pictures: the spread over all spins (spins.png), and contact spacing with and without control (spacing.png)."""
 
 from __future__ import annotations
 
@@ -50,7 +50,9 @@ def _rings(axes: Any, found: Spread, along: Floats, colours: Floats) -> None:
     axes.plot(0, 0, "k+")
     axes.set_aspect("equal", adjustable="datalim")
     _dress(axes, "Second contacts of all spins, P at +", "across the feed / mm", "along the feed / mm")
-    axes.legend(title="footprint / mm", fontsize=8, frameon=False, loc="upper left", bbox_to_anchor=(0, -0.17), ncol=3)
+    axes.legend(
+        title="footprint / mm", fontsize=8, frameon=False, loc="upper left", bbox_to_anchor=(0, -0.17), ncol=3
+    )
 
 
 def draw_control(before: Plan, after: Plan, title: str) -> bytes:
@@ -65,7 +67,9 @@ def draw_control(before: Plan, after: Plan, title: str) -> bytes:
         axes = figure.add_axes((0.50, bottom + 0.02, 0.47, 0.34))
         _along_passes(axes, plan, spread, wanted)
         axes.set_ylim(0, 1.05 * top)
-        _dress(axes, f"{name}: the same along the passes", "first contact along the feed / mm", "spacing / mm")
+        _dress(
+            axes, f"{name}: the same along the passes", "first contact along the feed / mm", "spacing / mm"
+        )
     return _png(figure)
 
 
@@ -75,7 +79,9 @@ def _spacing_of(plan: Plan, wanted: Plan) -> Floats:
     return spacing.contact_spacing(plan.contacts, plan.status.tolist(), measure, along)
 
 
-def _map(figure: Any, bottom: float, plan: Plan, spread: Floats, top: float, wanted: float, name: str) -> None:
+def _map(
+    figure: Any, bottom: float, plan: Plan, spread: Floats, top: float, wanted: float, name: str
+) -> None:
     axes = figure.add_axes((0.05, bottom + 0.02, 0.33, 0.38))
     first = plan.scene.frame.to_setup(plan.contacts[:, 0])
     second = plan.scene.frame.to_setup(plan.contacts[:, 1])
@@ -89,7 +95,9 @@ def _map(figure: Any, bottom: float, plan: Plan, spread: Floats, top: float, wan
     share = f"{np.count_nonzero(kept)} of {len(kept)}"
     _dress(axes, f"{name}: {share} within 1 % (others: red)", "x / mm", "y / mm")
     bar = figure.add_axes((0.395, bottom + 0.02, 0.012, 0.38))
-    bar.imshow(np.linspace(0, top, 64)[:, None], origin="lower", aspect="auto", extent=(0, 1, 0, top), cmap=COLOURS)
+    bar.imshow(
+        np.linspace(0, top, 64)[:, None], origin="lower", aspect="auto", extent=(0, 1, 0, top), cmap=COLOURS
+    )
     bar.set_xticks([])
     bar.set_title("mm", fontsize=8)
     bar.tick_params(labelsize=8)

@@ -47,7 +47,8 @@ def _points_near(face: FaceArrays, at: Floats, reach: float, step: float) -> Flo
     u_near, v_near = np.flatnonzero(near.any(axis=1)), np.flatnonzero(near.any(axis=0))
     u_range, v_range = u[u_near[[0, -1]]], v[v_near[[0, -1]]]
     lines = int(np.ceil((2 * reach + 2 * spread) / step)) + 1
-    points = _net(surface, np.linspace(*u_range, lines), np.linspace(*v_range, lines)).reshape(-1, 3)
+    across = np.linspace(u_range[0], u_range[1], lines), np.linspace(v_range[0], v_range[1], lines)
+    points = _net(surface, *across).reshape(-1, 3)
     return points[np.linalg.norm(points[:, :2] - at, axis=1) <= reach]
 
 
@@ -58,10 +59,17 @@ def _net(surface: _core.BSplineSurface, u: Floats, v: Floats) -> Floats:
 
 
 def width_mm(
-    tool: _core.Tool, tip: Floats, axis: Floats, contact: Floats, ground: Ground, along: Floats, scallop_mm: float
+    tool: _core.Tool,
+    tip: Floats,
+    axis: Floats,
+    contact: Floats,
+    ground: Ground,
+    along: Floats,
+    scallop_mm: float,
 ) -> float:
     """Width, across the feed direction `along`, of the strip round `contact` (3,) in which the tool at tip, axis is no
-    farther than scallop_mm from the ground; NaN without a contact. To about STEP_PER_RADIUS of the cutter's radius."""
+    farther than scallop_mm from the ground; NaN without a contact. To about STEP_PER_RADIUS of the cutter's radius.
+    """
     if not np.isfinite(contact).all():
         return float("nan")
     across = np.cross(along, [0.0, 0.0, 1.0])

@@ -1,5 +1,5 @@
-"""Spheres, cylinders and tori as rational faces, where the right answer has a closed form: contacts of the ring's circle of
-radius Ro with the surface offset by Ri, calculated here and not by the core."""
+"""Spheres, cylinders and tori as rational faces, where the right answer has a closed form: contacts of the ring's circle
+of radius Ro with the surface offset by Ri, calculated here and not by the core."""
 
 from __future__ import annotations
 

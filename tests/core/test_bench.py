@@ -8,7 +8,15 @@ import numpy as np
 import pytest
 
 from freecad_mpm import _core
-from freecad_mpm.core import bench, bench_degrees, bench_picture, bench_scaling, bench_summary, markers, planning
+from freecad_mpm.core import (
+    bench,
+    bench_degrees,
+    bench_picture,
+    bench_scaling,
+    bench_summary,
+    markers,
+    planning,
+)
 from freecad_mpm.core.bench import Row
 from freecad_mpm.core.bench_summary import Table
 from freecad_mpm.core.errors import InputError
@@ -71,8 +79,8 @@ def test_time_is_that_of_the_positions_alone(rows: list[Row]) -> None:
 
 
 def test_the_certificate_judges_and_not_the_method(rows: list[Row]) -> None:
-    """vcrf calls none of its positions a gouge; the certificate finds what an independent re-implementation of the thesis
-    has: 0.0032, 0.0040 and 0.0074 mm."""
+    """vcrf calls none of its positions a gouge; the certificate finds what an independent re-implementation of the
+    thesis has: 0.0032, 0.0040 and 0.0074 mm."""
     worst = {row["surface"]: row["worst_gouge_mm"] for row in rows if row["method"] == "vcrf"}
     right = {"convex": 0.0032, "concave": 0.0040, "saddle": 0.0074}
     assert worst == pytest.approx(right, abs=0.0002)
@@ -140,4 +148,6 @@ def test_a_row_counts_its_failures() -> None:
     stages = Stages(threads=1)
     few = planning.prepare(run.job, None, stages)
     row, positions = bench.timed(run, few, stages)
-    assert row["failures"] == np.count_nonzero(~positions.usable) == 288  # as an independent re-implementation
+    assert (
+        row["failures"] == np.count_nonzero(~positions.usable) == 288
+    )  # as an independent re-implementation

@@ -1,4 +1,4 @@
-"""A wanted contact spacing through the whole chain: the job's key, the plan, the report; and the spread over all spins."""
+"""A wanted contact spacing through the whole chain: job, plan, report; and the spread over all spins."""
 
 from __future__ import annotations
 
@@ -90,7 +90,10 @@ def test_a_turned_part_keeps_the_spacing_across_its_feed(saddle_job: Job) -> Non
 @pytest.mark.parametrize(
     ("method", "message"),
     [
-        (dict(name="vcrf", contact_spacing_mm=8.0), "must be 0 for vcrf, which cannot spin; exact and dstm can"),
+        (
+            dict(name="vcrf", contact_spacing_mm=8.0),
+            "must be 0 for vcrf, which cannot spin; exact and dstm can",
+        ),
         (dict(name="dtm", contact_spacing_mm=8.0), "must be 0 for dtm"),
     ],
 )
