@@ -66,4 +66,6 @@ def _bars(axes: Any, rows: Sequence[Row], key: str, title: str, unit: str, log: 
 def _value(row: Row, key: str) -> float:
     if key == "work":
         return float(row["evaluations_per_position"] + row["cells_per_position"])
-    return float(row[key] or 0.0)
+    if key == "worst_gouge_mm":
+        return max(row[key] or 0.0, LEAST_DEPTH_MM)
+    return float(row[key])

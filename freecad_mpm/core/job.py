@@ -83,7 +83,7 @@ class MethodSpec(Section):
     def check_together(self) -> None:
         if self.contact_spacing_mm and self.spin_deg:
             raise self.error(
-                "spin_deg", f"must be 0 when contact_spacing_mm chooses the spin, got {self.spin_deg:g}"
+                "spin_deg", f"must be 0 when a contact spacing chooses the spin, got {self.spin_deg:g}"
             )
 
 

@@ -103,7 +103,35 @@ def test_bench_prints_and_writes_rows(job_file: Path, tmp_path: Path) -> None:
     assert rows[0]["evaluations_per_position"] > 1000
     assert "vcrf" in text
     assert 0.5 < rows[0]["two_contacts"] <= 1
-    assert rows[0]["worst_clearance_mm"] <= rows[0]["deep_clearance_mm"]
+    assert rows[0]["worst_gouge_mm"] >= rows[0]["deep_gouge_mm"]
+    assert (tmp_path / "bench.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_bench_writes_its_tables_into_pages_and_names_one_without_a_block(
+    job_file: Path, tmp_path: Path
+) -> None:
+    page = tmp_path / "page.md"
+    page.write_text("Before\n<!-- begin summary -->\nold\n<!-- end summary -->\nafter\n")
+    arguments = ("--surfaces", job_file, "--methods", "exact", "--threads", "1", "--out", tmp_path)
+    assert run("bench", *arguments, "--markdown", page)[0] == 0
+    text = page.read_text()
+    assert text.startswith("Before\n") and text.endswith("after\n") and "| `exact` |" in text
+    page.write_text("nothing")
+    status, _, error = run("bench", *arguments, "--markdown", page)
+    assert status == 2 and "page.md: has none of the blocks" in error and page.read_text() == "nothing"
+
+
+def test_spins_writes_the_spread_and_the_control(job_file: Path, tmp_path: Path) -> None:
+    wanted = 'name = "exact"\ncontact_spacing_mm = 6\nspacing_measure = "direct"'
+    job_file.write_text(job_file.read_text().replace('name = "vcrf"', wanted))
+    status, text, error = run(
+        "spins", job_file, "--out", tmp_path, "--at", "40,60", "110,90", "--step-deg", 30
+    )
+    assert (status, error) == (0, "")
+    assert "Contacts 6 mm apart from contact to contact: within 1% at 28 of 28 positions" in text
+    rows = list(csv.DictReader((tmp_path / "spins.csv").read_text().splitlines()))
+    assert len(rows) == 24 and {row["status"] for row in rows} == {"two_contacts"}
+    assert (tmp_path / "spins.png").exists() and (tmp_path / "spacing.png").exists()
 
 
 def test_bench_writes_the_rows_as_csv_too(job_file: Path, tmp_path: Path) -> None:
@@ -144,6 +172,7 @@ BAD_JOBS = [
     ("[tool]", '[machine]\nname = "dmu80"\n[tool]', "[machine] name: machine 'dmu80': unknown"),
     ("[tool]", '[post]\nname = "dmu80"\n[tool]', "[post] name: post 'dmu80': unknown"),
     ("[tool]", '[post]\nprogram_name = "a b"\n[tool]', "[post] program_name: must be"),
+    ('name = "vcrf"', 'name = "vcrf"\ncontact_spacing_mm = 5', "contact_spacing_mm: must be 0 for vcrf"),
     ("side_step_mm", "sidestep_mm", "[footprint] sidestep_mm: unknown key; did you mean side_step_mm?"),
     ("[footprint]", "[foot]", "[foot]: unknown table"),
     ("[tool]", "[tool", "is not valid TOML"),
@@ -192,6 +221,19 @@ BAD_COMMANDS: dict[str, Callable[[Path, Path], tuple[list[object], str]]] = {
     "info of a folder": lambda job, folder: (["info", folder], str(folder)),
     "info of garbage": lambda job, folder: (["info", spoil(folder / "bad.step", b"garbage")], "bad.step"),
     "info of an empty file": lambda job, folder: (["info", spoil(folder / "bad.brep", b"")], "bad.brep"),
+    "spins of a method that cannot": lambda job, folder: (
+        ["spins", job, "--out", folder],
+        "vcrf cannot spin",
+    ),
+    "spins nowhere": lambda job, folder: (["spins", job, "--out", folder, "--at", "4"], "must be X,Y"),
+    "spins by nothing": lambda job, folder: (
+        ["spins", job, "--out", folder, "--step-deg", "0"],
+        "must be a positive number",
+    ),
+    "bench into nothing": lambda job, folder: (
+        ["bench", "--out", folder, "--markdown", folder / "no.md"],
+        "no.md: cannot be read",
+    ),
     "verify nothing": lambda job, folder: (["verify", job, folder / "no.csv"], "no.csv: cannot be read"),
     "verify garbage": lambda job, folder: (["verify", job, job], "job.toml:"),
     "bench of nothing": lambda job, folder: (

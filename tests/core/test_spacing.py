@@ -105,7 +105,7 @@ def test_methods_that_cannot_spin_refuse_it(saddle_job: Job, method: dict, messa
 @pytest.mark.parametrize(
     ("values", "message"),
     [
-        (dict(contact_spacing_mm=8.0, spin_deg=5.0), "spin_deg: must be 0 when contact_spacing_mm chooses"),
+        (dict(contact_spacing_mm=8.0, spin_deg=5.0), "spin_deg: must be 0 when a contact spacing chooses"),
         (dict(contact_spacing_mm=-1.0), "contact_spacing_mm: must be zero or a positive number of mm"),
         (dict(spacing_measure="diagonal"), 'spacing_measure: must be "across" or "direct"'),
     ],

@@ -231,3 +231,17 @@ def test_undo_takes_everything_back(doc: Any, block: Any) -> None:
     doc.redo()
     op = next(obj for obj in doc.Objects if obj.Name.startswith("MultiPointFinish"))
     assert op.Positions > 20 and len(cl_path.from_commands(op.Path.Commands)) > 20
+
+
+def test_a_contact_spacing_is_kept_by_spin(doc: Any, block: Any) -> None:
+    op = freecad_mpm.create(doc, [(block, TOP)], ContactSpacing="6 mm", SpacingMeasure="direct", **COARSE)
+    assert op.Problem == "" and op.Good
+    assert "Contacts 6 mm apart from contact to contact: within 1% at" in op.Report
+    op.Spin = "10 deg"
+    doc.recompute()
+    assert op.Problem == "Spin: must be 0 when a contact spacing chooses the spin, got 10"
+
+
+def test_a_method_that_cannot_spin_refuses_a_contact_spacing(doc: Any, block: Any) -> None:
+    with pytest.raises(InputError, match="ContactSpacing: must be 0 for vcrf, which cannot spin"):
+        freecad_mpm.create(doc, [(block, TOP)], Method="vcrf", ContactSpacing="6 mm", **COARSE)
