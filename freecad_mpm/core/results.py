@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path as FilePath
 
-from . import cl_file, machined, picture, report
+from . import cl_file, cutting, mesh_file, picture, report
 from .apt import to_apt
-from .plan import Path, Plan
+from .plan import Plan
 from .proof import proof_file
 from .shop import find_shop
 from .stages import Stages
@@ -40,18 +39,9 @@ def _apt(plan: Plan) -> str:
 
 
 def _machined_stl(plan: Plan, stages: Stages) -> bytes:
-    scene = plan.scene
-    surface = stages.run_native(
-        "machined.stl", machined.machine, scene.tool, _path_in_setup(plan), scene.model.bounds()
-    )
-    return machined.to_stl(surface, scene.frame.to_part)
-
-
-def _path_in_setup(plan: Plan) -> Path:
-    frame = plan.scene.frame
-    return replace(
-        plan.path, tip=frame.to_setup(plan.path.tip), axis=frame.direction_to_setup(plan.path.axis)
-    )
+    resolution = cutting.default_resolution_mm(plan.scene)
+    mesh = cutting.cut_stock(plan.scene, plan.path, resolution, stages, "machined.stl")
+    return stages.run("machined.stl", mesh_file.to_bytes, "machined.stl", mesh.vertices, mesh.triangles)
 
 
 def _picture(plan: Plan) -> bytes:

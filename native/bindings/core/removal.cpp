@@ -1,61 +1,165 @@
 #include "common.h"
-#include "mpm/removal/height_map.h"
+#include "mpm/removal/dexel_mesh.h"
+#include "mpm/removal/dexel_stock.h"
+#include "mpm/removal/normal_rays.h"
+#include "mpm/removal/surface_samples.h"
 
 namespace mpm::bindings {
 namespace {
 
-py::array_t<double> machined_heights(
-    const Tool& tool,
-    const DoubleArray& tip,
-    const DoubleArray& axis,
-    const py::array_t<bool, py::array::c_style | py::array::forcecast>& removes,
-    const Vec2& lo,
-    const Vec2& hi,
-    double cell_mm,
-    double top_mm,
-    double step_mm,
-    double tolerance_mm,
-    Context& context) {
+using FlagArray = py::array_t<bool, py::array::c_style | py::array::forcecast>;
+using IntArray = py::array_t<std::int32_t, py::array::c_style | py::array::forcecast>;
+
+ToolSweep make_sweep(const Tool& tool,
+                     const DoubleArray& tip,
+                     const DoubleArray& axis,
+                     const FlagArray& removes) {
   const std::vector<Vec3> tips = to_vectors<Vec3>(tip, "tip"), axes = to_vectors<Vec3>(axis, "axis");
   require(tips.size() == axes.size(), "tip and axis must have the same shape (M, 3)");
   require(removes.ndim() == 1, "removes must have shape (M,), got " + shape_of(removes));
   SweptPath path;
   for (std::size_t i = 0; i < tips.size(); ++i) path.poses.push_back({tips[i], axes[i]});
   path.removes.assign(removes.data(), removes.data() + removes.size());
-  HeightMap stock = make_stock(lo, hi, cell_mm, top_mm);
+  return {tool, path};
+}
+
+py::array_t<std::uint32_t> from_triangles(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+  py::array_t<std::uint32_t> result({py::ssize_t(triangles.size()), py::ssize_t(3)});
+  std::copy_n(triangles.empty() ? nullptr : triangles[0].data(), triangles.size() * 3, result.mutable_data());
+  return result;
+}
+
+py::tuple cut_free_rays(const ToolSweep& sweep,
+                        const DoubleArray& origins,
+                        const DoubleArray& directions,
+                        const DoubleArray& height,
+                        const std::optional<IntArray>& move,
+                        double below_mm,
+                        Context& context) {
+  const std::vector<Vec3> from = to_vectors<Vec3>(origins, "origins"),
+                          to = to_vectors<Vec3>(directions, "directions");
+  require(from.size() == to.size(), "origins and directions must have the same shape (N, 3)");
+  NormalRays rays{{}, to_doubles(height, "height"), {}, below_mm};
+  for (std::size_t i = 0; i < from.size(); ++i) rays.rays.push_back({from[i], to[i]});
+  rays.move.assign(from.size(), -1);
+  if (move) rays.move.assign(move->data(), move->data() + move->size());
   {
     py::gil_scoped_release release;
-    remove_material(stock, tool, path, {step_mm, tolerance_mm}, context);
+    cut_rays(rays, sweep, context);
   }
-  py::array_t<double> result({py::ssize_t(stock.rows), py::ssize_t(stock.columns)});
-  std::copy(stock.height.begin(), stock.height.end(), result.mutable_data());
+  return py::make_tuple(from_scalars(rays.height), from_scalars(rays.move));
+}
+
+py::tuple mesh_of(const DexelStock& stock) {
+  TriangleMesh mesh;
+  {
+    py::gil_scoped_release release;
+    mesh = stock_mesh(stock);
+  }
+  return py::make_tuple(from_vectors(mesh.vertices), from_triangles(mesh.triangles));
+}
+
+py::list dexel(const DexelStock& stock, int axis, std::size_t u, std::size_t v) {
+  require(axis >= 0 && axis < 3, "axis must be 0, 1 or 2");
+  const DexelField& field = stock.fields[std::size_t(axis)];
+  require(u < field.count_u() && v < field.count_v(), "u, v: no such dexel");
+  py::list spans;
+  for (const Span* s = field.begin(u, v); s != field.end(u, v); ++s)
+    spans.append(py::make_tuple(s->from, s->to));
+  return spans;
+}
+
+py::dict surface_samples(const SurfaceModel& model, double spacing_mm, Context& context) {
+  SurfaceSamples samples;
+  {
+    py::gil_scoped_release release;
+    samples = sample_surfaces(model, spacing_mm, context);
+  }
+  py::dict result;
+  result["points"] = from_vectors(samples.points), result["normals"] = from_vectors(samples.normals);
+  result["at"] = from_vectors(samples.at), result["face"] = from_scalars(samples.face);
+  result["triangles"] = from_triangles(samples.triangles);
   return result;
+}
+
+void bind_stock(py::module_& m) {
+  py::class_<DexelStock>(
+      m,
+      "DexelStock",
+      "A block of stock lo..hi (set-up frame, mm) as dexels along x, y and z, cell_mm apart.")
+      .def(py::init([](const Vec3& lo, const Vec3& hi, double cell_mm) {
+             return DexelStock(make_dexel_grid(lo, hi, cell_mm));
+           }),
+           py::arg("lo"),
+           py::arg("hi"),
+           py::arg("cell_mm"))
+      .def_static(
+          "bytes_needed",
+          [](const Vec3& lo, const Vec3& hi, double cell_mm) {
+            return dexel_bytes(make_dexel_grid(lo, hi, cell_mm));
+          },
+          py::arg("lo"),
+          py::arg("hi"),
+          py::arg("cell_mm"),
+          "Memory of such a stock while each dexel holds one piece of material.")
+      .def_property_readonly("counts", [](const DexelStock& s) { return s.grid.count; })
+      .def_property_readonly(
+          "bytes",
+          [](const DexelStock& s) { return s.fields[0].bytes() + s.fields[1].bytes() + s.fields[2].bytes(); })
+      .def_property_readonly("volume_mm3", &DexelStock::volume)
+      .def("cut",
+           &cut_stock,
+           py::arg("sweep"),
+           py::arg("context"),
+           py::call_guard<py::gil_scoped_release>(),
+           "Takes what the tool sweeps out of the stock.")
+      .def("dexel",
+           &dexel,
+           py::arg("axis"),
+           py::arg("u"),
+           py::arg("v"),
+           "Spans (from, to) of material on the dexel along axis through node u of axis + 1 and v of axis + "
+           "2 (cyclic).")
+      .def("mesh",
+           &mesh_of,
+           "Closed surface: vertices (V, 3), triangles (T, 3) counter-clockwise seen from outside.");
 }
 
 }  // namespace
 
 void bind_removal(py::module_& m) {
-  m.def("machined_heights",
-        &machined_heights,
-        py::arg("tool"),
-        py::arg("tip"),
-        py::arg("axis"),
-        py::arg("removes"),
-        py::arg("lo"),
-        py::arg("hi"),
+  py::class_<ToolSweep>(m, "ToolSweep", "What a tool sweeps on its way.")
+      .def(py::init(&make_sweep),
+           py::arg("tool"),
+           py::arg("tip"),
+           py::arg("axis"),
+           py::arg("removes"),
+           "tip, axis (M, 3) in the set-up frame; removes (M,): does the move from pose i - 1 to pose i take "
+           "material away?")
+      .def_property_readonly("strokes", [](const ToolSweep& s) { return s.strokes().size(); });
+  bind_stock(m);
+  m.def(
+      "cut_rays",
+      &cut_free_rays,
+      py::arg("sweep"),
+      py::arg("origins"),
+      py::arg("directions"),
+      py::arg("height"),
+      py::kw_only(),
+      py::arg("move") = py::none(),
+      py::arg("below_mm"),
+      py::arg("context"),
+      "Where the material on rays from the true surface outwards ends after the cut: height (N,) mm, below 0 "
+      "where the tool cut in, down to -below_mm; and the moves (N,) that cut there, -1: none. height, move: "
+      "before the cut.");
+  m.def("sample_surfaces",
+        &surface_samples,
+        py::arg("model"),
         py::kw_only(),
-        py::arg("cell_mm"),
-        py::arg("top_mm"),
-        py::arg("step_mm"),
-        py::arg("tolerance_mm") = RemovalOptions{}.tolerance,
+        py::arg("spacing_mm"),
         py::arg("context"),
-        "What the moves leave of a stock with a flat top at top_mm over the plan rectangle lo..hi of the "
-        "set-up frame: "
-        "heights (rows, columns) at x = lo[0] + column * cell_mm, y = lo[1] + row * cell_mm. tip, axis (M, "
-        "3); removes "
-        "(M,): does the move from pose i - 1 to pose i take material away? step_mm: largest motion of the "
-        "tool between "
-        "simulated poses, best half a cell.");
+        "Points of the faces to machine about spacing_mm apart: dict of points, normals (N, 3), "
+        "at (N, 2), their parameters, face (N,), index into the model's, triangles (T, 3).");
 }
 
 }  // namespace mpm::bindings

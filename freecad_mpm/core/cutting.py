@@ -1,0 +1,279 @@
+"""Removal: what a path leaves of the stock, and how far that is from the true surface (docs/removal.md).
+
+    cut = cutting.cut(plan.scene, plan.path, resolution_mm=0.5)
+    vertices, triangles = cut.mesh()
+    print(cut.worst(), cut.deviation.deviation_mm.max())
+
+It knows the faces, the tool and where the tool goes, and nothing of how the positions came about."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .. import _core
+from .model import Scene
+from .stages import Cancel, Progress, Stages
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+Names = NDArray[np.str_]
+
+# Moves of these kinds take nothing away, whatever they run through.
+NOT_CUTTING = ("rapid",)
+# The stock reaches this part of its height below the lowest point of the faces, and at least a cell.
+BASE_DEPTH = 0.1
+# Dexels along the longer side of a stock whose resolution nobody names: a 150 mm part gets 0.5 mm.
+DEXELS_ALONG = 300
+
+
+class Moves(Protocol):
+    """What is needed of a path: `kind` (M,) names, `tip` and `axis` (M, 3), part frame, mm."""
+
+    @property
+    def kind(self) -> Names:
+        ...
+
+    @property
+    def tip(self) -> Floats:
+        ...
+
+    @property
+    def axis(self) -> Floats:
+        ...
+
+
+class Mesh(NamedTuple):
+    """A closed surface: `vertices` (V, 3) mm, part frame; `triangles` (T, 3), counter-clockwise seen from outside."""
+
+    vertices: Floats
+    triangles: NDArray[np.uint32]
+
+
+class Box(NamedTuple):
+    """A box lo..hi (3,), mm."""
+
+    lo: Floats
+    hi: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class Deviation:
+    """The machined surface against the true one at N points of the faces to machine; part frame, mm."""
+
+    points: Floats  # (N, 3), on the true surface
+    normals: Floats  # (N, 3), unit, out of the part
+    deviation_mm: Floats  # (N,), along the normal: > 0 remains, < 0 is cut in, down to -Cut.below_mm
+    move: Integers  # (N,), row of the path whose move cut there last, -1: none did
+    face: Integers  # (N,), index into Scene.machined
+    at: Floats  # (N, 2), parameters (u, v) of the points on their faces
+    triangles: NDArray[
+        np.uint32
+    ]  # (T, 3) of points, for colouring; trimmed faces end up to a sample short of their border
+
+
+class Extreme(NamedTuple):
+    """A place of the deviation: how much, where, and after which move (row of the path, -1: none)."""
+
+    deviation_mm: float
+    point: Floats  # (3,), on the true surface, part frame
+    move: int
+
+
+class Worst(NamedTuple):
+    """The deepest gouge (the least deviation, above 0 when there is no gouge) and the largest remainder."""
+
+    gouge: Extreme
+    remainder: Extreme
+
+
+@dataclass(frozen=True, eq=False)
+class Cut:
+    """What `cut` found."""
+
+    scene: Scene
+    path: Moves
+    resolution_mm: float
+    stock: Box  # set-up frame
+    deviation: Deviation
+    below_mm: float  # gouges deeper than this are given as so deep
+    sweep: Any  # the native _core.ToolSweep of the path, for more rays
+    dexels: Any  # the native _core.DexelStock after the cut; None: `with_stock` was False
+    seconds: dict[str, float]  # wall time of the stages
+
+    def mesh(self) -> Mesh:
+        """The machined stock. Raises ValueError when it was not cut (`with_stock`)."""
+        if self.dexels is None:
+            raise ValueError("with_stock must be True for a mesh")
+        return _mesh(self.scene, self.dexels)
+
+    def worst(self) -> Worst:
+        """Worst gouge and largest remainder over all points of the deviation."""
+        values = self.deviation.deviation_mm
+        return Worst(self._extreme(int(np.argmin(values))), self._extreme(int(np.argmax(values))))
+
+    def heights(self, points: Floats, directions: Floats) -> tuple[Floats, Integers]:
+        """Deviation (N,) along `directions` (N, 3) at any `points` (N, 3) of the true surface (part frame), and the moves
+        (N,) that cut there: exact, whatever the resolution."""
+        frame = self.scene.frame
+        return cut_rays(
+            self.sweep,
+            frame.to_setup(points),
+            frame.direction_to_setup(directions),
+            self.stock,
+            self.below_mm,
+            _core.Context(),
+        )
+
+    def _extreme(self, i: int) -> Extreme:
+        found = self.deviation
+        return Extreme(float(found.deviation_mm[i]), found.points[i], int(found.move[i]))
+
+
+def cut(
+    scene: Scene,
+    path: Moves,
+    resolution_mm: float = 0.5,
+    *,
+    box: tuple[Sequence[float], Sequence[float]] | None = None,
+    with_stock: bool = True,
+    on_progress: Progress | None = None,
+    cancel: Cancel | None = None,
+    threads: int = 0,
+) -> Cut:
+    """Take everything that the tool sweeps on its way out of a block of stock, and measure what is left.
+
+    scene:         the part's faces and the tool (`Plan.scene`).
+    path:          the moves (part frame); all but rapids cut, with ring, bottom, flutes, shank and holder. Between two
+                   rows the tip goes straight and the axis along a great circle.
+    resolution_mm: distance of the dexels and of the points of the deviation; the values themselves do not depend on it.
+    box:           lo, hi (set-up frame) of the stock; default: the faces' box, and some base below it. A small box with a
+                   small resolution looks closely at one place: points outside of it are left out.
+    with_stock:    cut the block too, for `Cut.mesh`; False measures the deviation only, in about a third of the time.
+    on_progress:   called in this thread as on_progress(stage, fraction 0..1).
+    cancel:        a threading.Event or a function; when it is set or true, Cancelled is raised within 0.1 s.
+    threads:       0: all cores. The result does not depend on it.
+
+    `memory_needed` says beforehand how many bytes it takes. Raises ValueError naming the argument that is wrong.
+    """
+    stages = Stages(on_progress, cancel, threads)
+    stock = _stock_box(scene, box, resolution_mm)
+    sweep = tool_sweep(scene, path)
+    deviation = _deviation(scene, sweep, stock, box is not None, resolution_mm, stages)
+    dexels = _cut_dexels(sweep, stock, resolution_mm, stages, "stock") if with_stock else None
+    below = scene.tool.radius
+    return Cut(scene, path, resolution_mm, stock, deviation, below, sweep, dexels, stages.seconds)
+
+
+def cut_stock(scene: Scene, path: Moves, resolution_mm: float, stages: Stages, stage: str = "stock") -> Mesh:
+    """Only the machined stock of `cut`, counted as `stage`."""
+    stock = _stock_box(scene, None, resolution_mm)
+    dexels = _cut_dexels(tool_sweep(scene, path), stock, resolution_mm, stages, stage)
+    return stages.run(stage, _mesh, scene, dexels)
+
+
+def default_resolution_mm(scene: Scene) -> float:
+    """A resolution at which the whole part is quickly cut."""
+    lo, hi = scene.model.bounds()
+    return float((hi - lo)[:2].max()) / DEXELS_ALONG
+
+
+def memory_needed(
+    scene: Scene,
+    resolution_mm: float,
+    box: tuple[Sequence[float], Sequence[float]] | None = None,
+    with_stock: bool = True,
+) -> int:
+    """About how many bytes `cut` will take. Raises ValueError for a resolution that is out of range."""
+    stock = _stock_box(scene, box, resolution_mm)
+    size = stock.hi - stock.lo
+    points = float(size[0] * size[1] / resolution_mm**2)
+    needed = int(points * BYTES_A_POINT)
+    return needed + (_core.DexelStock.bytes_needed(stock.lo, stock.hi, resolution_mm) if with_stock else 0)
+
+
+# A point of the deviation: position and normal in both frames, parameters, two triangles.
+BYTES_A_POINT = 300
+
+
+def tool_sweep(scene: Scene, path: Moves) -> Any:
+    """The native sweep of a path (part frame) by the scene's tool."""
+    frame = scene.frame
+    removes = ~np.isin(path.kind, NOT_CUTTING)
+    return _core.ToolSweep(scene.tool, frame.to_setup(path.tip), frame.direction_to_setup(path.axis), removes)
+
+
+def cut_rays(
+    sweep: Any, points: Floats, directions: Floats, stock: Box, below_mm: float, context: Any
+) -> tuple[Floats, Integers]:
+    """Heights (N,) and moves (N,) on rays from `points` along `directions` (N, 3) (set-up frame) that material fills up to
+    the stock's box."""
+    full = _way_out(points, directions, stock)
+    height, move = _core.cut_rays(sweep, points, directions, full, below_mm=below_mm, context=context)
+    return height, move.astype(np.int64)
+
+
+def _way_out(points: Floats, directions: Floats, stock: Box) -> Floats:
+    """(N,): how far each ray goes until it leaves the box, 0 for points outside."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        far = np.where(directions > 0, stock.hi - points, stock.lo - points) / directions
+    far = np.where(directions == 0, np.inf, far)
+    return np.asarray(np.maximum(far.min(axis=1), 0.0))
+
+
+def _cut_dexels(sweep: Any, stock: Box, resolution_mm: float, stages: Stages, stage: str) -> Any:
+    dexels = _core.DexelStock(stock.lo, stock.hi, resolution_mm)
+    stages.run_native(stage, dexels.cut, sweep)
+    return dexels
+
+
+def _mesh(scene: Scene, dexels: Any) -> Mesh:
+    vertices, triangles = dexels.mesh()
+    return Mesh(scene.frame.to_part(vertices), triangles)
+
+
+def _stock_box(
+    scene: Scene, box: tuple[Sequence[float], Sequence[float]] | None, resolution_mm: float
+) -> Box:
+    if not (np.isfinite(resolution_mm) and resolution_mm > 0):
+        raise ValueError(f"resolution_mm must be a positive number, got {resolution_mm}")
+    lo, hi = (np.array(corner, dtype=np.float64) for corner in (box or scene.model.bounds()))
+    if lo.shape != (3,) or hi.shape != (3,) or not (lo < hi + (box is None)).all():
+        raise ValueError(f"box must be lo and hi of three numbers each, lo < hi, got {box}")
+    if box is None:
+        lo[2] -= max(BASE_DEPTH * (hi[2] - lo[2]), 2 * resolution_mm)
+    return Box(lo, hi)
+
+
+def _deviation(
+    scene: Scene, sweep: Any, stock: Box, only_inside: bool, spacing_mm: float, stages: Stages
+) -> Deviation:
+    samples = stages.run_native("samples", _core.sample_surfaces, scene.model, spacing_mm=spacing_mm)
+    if only_inside:
+        samples = _inside(samples, stock)
+    points, normals = samples["points"], samples["normals"]
+    height, move = stages.run_native("deviation", cut_rays, sweep, points, normals, stock, scene.tool.radius)
+    return Deviation(
+        scene.frame.to_part(points),
+        scene.frame.direction_to_part(normals),
+        height,
+        move,
+        samples["face"].astype(np.int64),
+        samples["at"],
+        samples["triangles"],
+    )
+
+
+def _inside(samples: dict[str, Any], stock: Box) -> dict[str, Any]:
+    """Only the samples in the box, and the triangles between them."""
+    kept = ((samples["points"] >= stock.lo) & (samples["points"] <= stock.hi)).all(axis=1)
+    if not kept.any():
+        raise ValueError("box: no point of the faces to machine lies in it")
+    number = np.cumsum(kept) - 1
+    triangles = samples["triangles"][kept[samples["triangles"]].all(axis=1)]
+    found = {name: samples[name][kept] for name in ("points", "normals", "face", "at")}
+    return found | {"triangles": number[triangles].astype(np.uint32)}

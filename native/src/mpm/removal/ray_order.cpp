@@ -1,0 +1,60 @@
+#include "mpm/removal/ray_order.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace mpm {
+namespace {
+
+constexpr std::uint64_t kMortonCells = (1u << 21) - 1;
+
+// Every bit of the lowest 21 followed by two zeros.
+std::uint64_t spread(std::uint64_t x) {
+  x = (x | x << 32) & 0x1f00000000ffffull;
+  x = (x | x << 16) & 0x1f0000ff0000ffull;
+  x = (x | x << 8) & 0x100f00f00f00f00full;
+  x = (x | x << 4) & 0x10c30c30c30c30c3ull;
+  return (x | x << 2) & 0x1249249249249249ull;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> near_together(const std::vector<Ray>& rays) {
+  Box3 box;
+  for (const Ray& ray : rays) box.extend(ray.origin);
+  const double size = rays.empty() ? 0 : (box.hi - box.lo).maxCoeff();
+  const double scale = size > 0 ? double(kMortonCells) / size : 0;
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> keys(rays.size());
+  for (std::uint32_t i = 0; i < rays.size(); ++i) {
+    const Vec3 p = scale * (rays[i].origin - box.lo);
+    keys[i] = {
+        spread(std::uint64_t(p.x())) | spread(std::uint64_t(p.y())) << 1 | spread(std::uint64_t(p.z())) << 2,
+        i};
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<std::uint32_t> order(rays.size());
+  std::transform(keys.begin(), keys.end(), order.begin(), [](const auto& k) { return k.second; });
+  return order;
+}
+
+void order_strokes(const ToolSweep& sweep,
+                   const Box3& box,
+                   const Ray& ray,
+                   const Span& probe,
+                   std::vector<std::uint32_t>& strokes) {
+  sweep.strokes_near(box, strokes);
+  std::vector<std::pair<double, std::uint32_t>> keys;
+  for (const std::uint32_t i : strokes) {
+    double entry = kInfinity;
+    if (!sweep.below(i, ray, probe.from, probe.to))
+      sweep.visit_spans(i, sweep.pieces_near(i, box), ray, probe.from, probe.to, [&](double from, double) {
+        entry = std::min(entry, from);
+      });
+    keys.emplace_back(entry, i);
+  }
+  std::sort(keys.begin(), keys.end());
+  std::transform(keys.begin(), keys.end(), strokes.begin(), [](const auto& k) { return k.second; });
+}
+
+}  // namespace mpm

@@ -1,0 +1,27 @@
+// Points of the faces to machine, with normals: where the machined surface is measured.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "mpm/base/context.h"
+#include "mpm/surface/surface_model.h"
+
+namespace mpm {
+
+struct SurfaceSamples {
+  std::vector<Vec3> points, normals;                    // normals: z >= 0, towards the tool
+  std::vector<Vec2> at;                                 // (u, v) of each point
+  std::vector<std::uint32_t> face;                      // of each point, index into model.faces()
+  std::vector<std::array<std::uint32_t, 3>> triangles;  // between points of one face; none over its border
+};
+
+// Samples at most about `spacing` mm apart on a grid of the parameters of each face to machine, and along its
+// trimming loops (points without triangles). Throws std::invalid_argument for a spacing that is not positive
+// or gives more than kMaxSamples points.
+SurfaceSamples sample_surfaces(const SurfaceModel& model, double spacing, Context& context);
+
+inline constexpr double kMaxSamples = 5e7;
+
+}  // namespace mpm
