@@ -36,11 +36,10 @@ void cut_dexel(SpanList& spans,
                std::uint32_t pieces,
                SpanList& gaps) {
   gaps.clear();
-  for (const Span& s : spans)
-    if (!sweep.below(stroke, ray, s.from, s.to))
-      sweep.visit_spans(stroke, pieces, ray, s.from, s.to, [&](double a, double b) {
-        gaps.push_back({a, b});
-      });
+  for (const Span& s : spans) {
+    const std::uint32_t near = sweep.pieces_not_above(stroke, pieces, ray, s.from, s.to);
+    sweep.visit_spans(stroke, near, ray, s.from, s.to, [&](double a, double b) { gaps.push_back({a, b}); });
+  }
   for (const Span& gap : gaps) take_out(spans, gap.from, gap.to);
 }
 

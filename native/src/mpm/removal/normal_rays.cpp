@@ -11,6 +11,7 @@ namespace mpm {
 namespace {
 
 constexpr double kUnitTolerance = 1e-9;
+constexpr std::size_t kBundleRays = 16;
 constexpr std::size_t kStrokesPerBox = 4;  // after so many strokes the tile's box is made anew
 
 void check_rays(const NormalRays& rays) {
@@ -22,39 +23,84 @@ void check_rays(const NormalRays& rays) {
             "origins must be finite, directions unit vectors");
 }
 
+// Neighbouring rays, and how far their upper ends and directions are from the middle one's.
+struct Bundle {
+  const std::uint32_t* first;
+  std::size_t count;
+  Box3 box;
+  double top = 0, radius = 0, spread = 0;
+
+  std::uint32_t middle() const { return first[count / 2]; }
+
+  void look_again(const NormalRays& rays) {
+    box = {};
+    radius = spread = 0;
+    top = rays.height[middle()];
+    const Vec3 middle_top = rays.rays[middle()].at(top);
+    const Vec3& direction = rays.rays[middle()].direction;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Ray& ray = rays.rays[first[i]];
+      const Vec3 upper = ray.at(rays.height[first[i]]);
+      box.extend(ray.at(-rays.below));
+      box.extend(upper);
+      radius = std::max(radius, (upper - middle_top).norm());
+      spread = std::max(spread, (ray.direction - direction).norm());
+    }
+  }
+};
+
+// The rays of one tile, in bundles.
 class TileCut {
  public:
   TileCut(NormalRays& rays, const ToolSweep& sweep, const std::uint32_t* tile, std::size_t count)
-      : rays_(rays), sweep_(sweep), tile_(tile), count_(count) {}
+      : rays_(rays), sweep_(sweep), tile_{tile, count, {}} {
+    for (std::size_t i = 0; i < count; i += kBundleRays)
+      bundles_.push_back({tile + i, std::min(kBundleRays, count - i), {}});
+  }
 
   void run(const Context& context) {
-    Box3 box = bounds();
-    const std::uint32_t middle = tile_[count_ / 2];
-    order_strokes(sweep_, box, rays_.rays[middle], {-rays_.below, rays_.height[middle]}, strokes_);
+    look_again();
+    const Ray& ray = rays_.rays[tile_.middle()];
+    order_strokes(sweep_, tile_.box, ray, {-rays_.below, tile_.top}, strokes_);
     std::size_t tried = 0;
     for (const std::uint32_t stroke : strokes_) {
       if (context.cancelled()) return;
-      const std::uint32_t pieces = sweep_.pieces_near(stroke, box);
-      if (pieces == 0) continue;
-      for (std::size_t i = 0; i < count_; ++i) cut(tile_[i], stroke, pieces);
-      if (++tried % kStrokesPerBox == 0) box = bounds();
+      if (pieces_near(tile_, stroke) == 0) continue;
+      for (const Bundle& bundle : bundles_) cut(bundle, stroke);
+      if (++tried % kStrokesPerBox == 0) look_again();
     }
   }
 
  private:
-  Box3 bounds() const {
-    Box3 box;
-    for (std::size_t i = 0; i < count_; ++i) {
-      box.extend(rays_.rays[tile_[i]].at(-rays_.below));
-      box.extend(rays_.rays[tile_[i]].at(rays_.height[tile_[i]]));
-    }
-    return box;
+  void look_again() {
+    tile_.look_again(rays_);
+    for (Bundle& bundle : bundles_) bundle.look_again(rays_);
   }
 
+  std::uint32_t pieces_near(const Bundle& bundle, std::uint32_t stroke) const {
+    const std::uint32_t pieces = sweep_.pieces_near(stroke, bundle.box);
+    const bool clear = (pieces & 1) && sweep_.ring_clear_below(
+        stroke, rays_.rays[bundle.middle()], bundle.top, bundle.radius, bundle.spread);
+    return clear ? pieces & ~std::uint32_t(1) : pieces;
+  }
+
+  void cut(const Bundle& bundle, std::uint32_t stroke) {
+    if (const std::uint32_t pieces = pieces_near(bundle, stroke))
+      for (std::size_t i = 0; i < bundle.count; ++i) cut(bundle.first[i], stroke, pieces);
+  }
+
+  // The ring first: what it takes away the pieces above it need not look at.
   void cut(std::uint32_t i, std::uint32_t stroke, std::uint32_t pieces) {
+    constexpr std::uint32_t kRing = 1;
+    cut_with(i, stroke, pieces & kRing);
+    cut_with(i, stroke, pieces & ~kRing);
+  }
+
+  void cut_with(std::uint32_t i, std::uint32_t stroke, std::uint32_t pieces) {
     const Ray& ray = rays_.rays[i];
     double& height = rays_.height[i];
-    if (height <= -rays_.below || sweep_.below(stroke, ray, -rays_.below, height)) return;
+    if (pieces == 0 || height <= -rays_.below) return;
+    pieces = sweep_.pieces_not_above(stroke, pieces, ray, -rays_.below, height);
     sweep_.visit_spans(stroke, pieces, ray, -rays_.below, height, [&](double from, double to) {
       if (from >= height || to < std::min(height, 0.0)) return;
       height = from;
@@ -64,8 +110,8 @@ class TileCut {
 
   NormalRays& rays_;
   const ToolSweep& sweep_;
-  const std::uint32_t* tile_;
-  std::size_t count_;
+  Bundle tile_;
+  std::vector<Bundle> bundles_;
   std::vector<std::uint32_t> strokes_;
 };
 

@@ -47,10 +47,11 @@ void order_strokes(const ToolSweep& sweep,
   std::vector<std::pair<double, std::uint32_t>> keys;
   for (const std::uint32_t i : strokes) {
     double entry = kInfinity;
-    if (!sweep.below(i, ray, probe.from, probe.to))
-      sweep.visit_spans(i, sweep.pieces_near(i, box), ray, probe.from, probe.to, [&](double from, double) {
-        entry = std::min(entry, from);
-      });
+    const std::uint32_t pieces =
+        sweep.pieces_not_above(i, sweep.pieces_near(i, box), ray, probe.from, probe.to);
+    sweep.visit_spans(i, pieces, ray, probe.from, probe.to, [&](double from, double) {
+      entry = std::min(entry, from);
+    });
     keys.emplace_back(entry, i);
   }
   std::sort(keys.begin(), keys.end());

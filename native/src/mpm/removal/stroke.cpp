@@ -14,13 +14,15 @@ constexpr double kUnitTolerance = 1e-6;  // of the length of an axis that comes 
 constexpr double kMissedDip = 5e-4;
 constexpr double kStraightAngle = 1e-9;  // radians: the axis does not turn
 
-Stroke make_stroke(const TipPose& a, const TipPose& b, std::uint32_t move) {
-  Stroke s{a.tip, b.tip - a.tip, a.axis, Vec3::Zero(), angle_between(a.axis, b.axis), move, b.tip, b.axis};
+Stroke make_stroke(const Tool& tool, const TipPose& a, const TipPose& b, std::uint32_t move) {
+  Stroke s{a.tip, b.tip - a.tip, a.axis, Vec3::Zero(), angle_between(a.axis, b.axis), move, tool.minor_radius, {}, {}};
   const Vec3 across = b.axis - b.axis.dot(a.axis) * a.axis;
   if (s.angle < kStraightAngle)
     s.angle = 0;
   else
     s.side = across.normalized();
+  s.ends = {s.at(0), s.at(1)};
+  s.middle = s.at(0.5);
   return s;
 }
 
@@ -36,7 +38,7 @@ void check_swept_path(const SweptPath& path) {
   }
 }
 
-StrokePose Stroke::at(double minor_radius, double time) const {
+StrokePose Stroke::at(double time) const {
   if (angle == 0) return {tip + time * travel + minor_radius * axis, axis, travel, Vec3::Zero()};
   // Taylor sums, exact to rounding up to kStrokeAngle.
   const double x = time * angle, q = x * x;
@@ -65,7 +67,7 @@ std::vector<Stroke> make_strokes(const Tool& tool, const SweptPath& path) {
         std::max((b.tip - a.tip).norm() / longest, angle_between(a.axis, b.axis) / kStrokeAngle);
     const int count = std::max(1, int(std::ceil(parts)));
     for (int k = 0; k < count; ++k)
-      strokes.push_back(make_stroke(pose_between(a, b, double(k) / count),
+      strokes.push_back(make_stroke(tool, pose_between(a, b, double(k) / count),
                                     pose_between(a, b, double(k + 1) / count),
                                     std::uint32_t(i)));
   }

@@ -1,6 +1,7 @@
 // The tool's way through the stock, cut into strokes so short that each is simple.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -32,9 +33,13 @@ struct Stroke {
   Vec3 axis, side;  // side: unit, square to the axis
   double angle;     // radians, 0 <= angle <= kStrokeAngle
   std::uint32_t move;
-  Vec3 end_tip, end_axis;  // at time 1
+  double minor_radius;  // of the tool
+  std::array<StrokePose, 2> ends;  // at times 0 and 1
+  StrokePose middle;               // at time 1/2
 
-  StrokePose at(double minor_radius, double time) const;
+  StrokePose at(double time) const;
+  // No point at distance `lever` from the torus centre moves farther against the tool during the stroke, mm.
+  double motion(double lever) const { return travel.norm() + angle * (minor_radius + lever); }
   // By how much the height of a point above the tip plane at any time may be below the lesser of its heights
   // at the two ends; for points within `reach` mm of the tip.
   double sagitta(double reach) const { return angle * travel.norm() / 2 + reach * angle * angle / 8; }

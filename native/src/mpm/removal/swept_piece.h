@@ -27,11 +27,13 @@ struct ConeShape {
   double r0, r1, z0, z1;
 };
 
-// Up to two spans, ascending.
+// A few spans; they may overlap.
 struct Spans {
-  std::array<Span, 2> span;
-  int count = 0;
-  void add(double from, double to) { span[std::size_t(count++)] = {from, to}; }
+  std::array<Span, 4> span;
+  std::size_t count = 0;
+  void add(const std::optional<Span>& one) {
+    if (one) span[count++] = *one;
+  }
 };
 
 // The spans of lo <= t <= hi that the shape sweeps during the stroke, ends exact to kRayEpsilon mm: at every
@@ -40,13 +42,19 @@ struct Spans {
 // the distance. A ring swept twice at a t in between them counts as swept throughout only on either side of
 // its axis.
 Spans swept_spans(
-    const RingShape& ring, const Stroke& stroke, double minor_radius, const Ray& ray, double lo, double hi);
+    const RingShape& ring, const Stroke& stroke, const Ray& ray, double lo, double hi);
 Spans swept_spans(
-    const ConeShape& cone, const Stroke& stroke, double minor_radius, const Ray& ray, double lo, double hi);
+    const ConeShape& cone, const Stroke& stroke, const Ray& ray, double lo, double hi);
 
 // Least signed distance (mm) of a point from the shape over the time of the stroke; for tests.
-double least_distance(const RingShape& ring, const Stroke& stroke, double minor_radius, const Vec3& point);
-double least_distance(const ConeShape& cone, const Stroke& stroke, double minor_radius, const Vec3& point);
+double least_distance(const RingShape& ring, const Stroke& stroke, const Vec3& point);
+double least_distance(const ConeShape& cone, const Stroke& stroke, const Vec3& point);
+
+// May a bundle of rays be left out of account, whose points at the upper ends of their spans lie within `radius` mm of
+// `ray`'s at `hi`, and whose directions differ from its by no more than `spread` (sine)? True only when the ring keeps
+// clear of those points during the whole stroke and all lower points of the rays lie farther from it.
+bool clear_below(
+    const RingShape& ring, const Stroke& stroke, const Ray& ray, double hi, double radius, double spread);
 
 inline constexpr double kRayEpsilon = 1e-6;  // mm along a ray
 

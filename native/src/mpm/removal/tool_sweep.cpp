@@ -26,6 +26,8 @@ ToolSweep::ToolSweep(const Tool& tool, const SweptPath& path)
   check_swept_path(path);
   visit_pieces(tool, [&](double r0, double r1, double z0, double z1) { cones_.push_back({r0, r1, z0, z1}); });
   require(cones_.size() < kMostPieces, "tool: too many segments");
+  bottoms_ = {-tool.minor_radius};
+  for (const ConeShape& cone : cones_) bottoms_.push_back(cone.z0);
   strokes_ = make_strokes(tool, path);
   std::vector<Box3> whole;
   const double reach = tool.length() + tool.reach();
@@ -41,14 +43,13 @@ ToolSweep::ToolSweep(const Tool& tool, const SweptPath& path)
 // Every point of a piece moves on an arc that leaves its chord by at most lever angle^2 / 8.
 void ToolSweep::add_boxes(const Stroke& stroke) {
   const double bow = stroke.angle * stroke.angle / 8;
-  const StrokePose ends[] = {stroke.at(tool_.minor_radius, 0), stroke.at(tool_.minor_radius, 1)};
   Box3 ring;
-  for (const StrokePose& pose : ends)
+  for (const StrokePose& pose : stroke.ends)
     add_disc(ring, pose, 0, ring_.major, ring_.minor + bow * (ring_.major + 2 * ring_.minor));
   boxes_.push_back(ring);
   for (const ConeShape& cone : cones_) {
     Box3 box;
-    for (const StrokePose& pose : ends) {
+    for (const StrokePose& pose : stroke.ends) {
       add_disc(box, pose, cone.z0, cone.r0, bow * (std::abs(cone.z0) + ring_.minor + cone.r0));
       add_disc(box, pose, cone.z1, cone.r1, bow * (std::abs(cone.z1) + ring_.minor + cone.r1));
     }
@@ -65,18 +66,34 @@ void ToolSweep::strokes_near(const Box3& box, std::vector<std::uint32_t>& result
 std::uint32_t ToolSweep::pieces_near(std::uint32_t stroke, const Box3& box) const {
   std::uint32_t mask = 0;
   const std::size_t pieces = cones_.size() + 1;
-  for (std::size_t k = 0; k < pieces; ++k)
-    if (boxes_[stroke * pieces + k].meets(box)) mask |= std::uint32_t(1) << k;
+  for (std::size_t k = 0; k < pieces; ++k) {
+    const Box3& piece = boxes_[stroke * pieces + k];
+    const Box3 common{piece.lo.cwiseMax(box.lo), piece.hi.cwiseMin(box.hi)};
+    if (!common.empty() && highest(stroke, common) >= bottoms_[k]) mask |= std::uint32_t(1) << k;
+  }
   return mask;
 }
 
-bool ToolSweep::below(std::uint32_t stroke, const Ray& ray, double lo, double hi) const {
-  const Stroke& s = strokes_[stroke];
-  const double start = (ray.origin - s.tip).dot(s.axis), end = (ray.origin - s.end_tip).dot(s.end_axis);
-  const double rise = ray.direction.dot(s.axis), end_rise = ray.direction.dot(s.end_axis);
-  const double highest =
-      std::max(start + std::max(lo * rise, hi * rise), end + std::max(lo * end_rise, hi * end_rise));
-  return highest < -sagitta_[stroke];
+// No point of the box is higher above the torus centre, along the axis, at any time of the stroke.
+double ToolSweep::highest(std::uint32_t stroke, const Box3& box) const {
+  const Vec3 center = box.center(), half = 0.5 * (box.hi - box.lo);
+  double height = -kInfinity;
+  for (const StrokePose& pose : strokes_[stroke].ends)
+    height = std::max(height, (center - pose.center).dot(pose.axis) + half.dot(pose.axis.cwiseAbs()));
+  return height + sagitta_[stroke];
+}
+
+std::uint32_t ToolSweep::pieces_not_above(
+    std::uint32_t stroke, std::uint32_t pieces, const Ray& ray, double lo, double hi) const {
+  double height = -kInfinity;
+  for (const StrokePose& pose : strokes_[stroke].ends) {
+    const double start = (ray.origin - pose.center).dot(pose.axis), rise = ray.direction.dot(pose.axis);
+    height = std::max(height, start + std::max(lo * rise, hi * rise));
+  }
+  height += sagitta_[stroke];
+  for (std::size_t k = 0; k < bottoms_.size(); ++k)
+    if (height < bottoms_[k]) pieces &= ~(std::uint32_t(1) << k);
+  return pieces;
 }
 
 }  // namespace mpm

@@ -19,11 +19,17 @@ class ToolSweep {
 
   // Numbers of the strokes whose box meets `box`, in a fixed order.
   void strokes_near(const Box3& box, std::vector<std::uint32_t>& result) const;
-  // Bit k: piece k of the tool (0: ring) may meet `box` during the stroke.
+  // Bit k: piece k of the tool (0: ring) may meet `box` during the stroke: their boxes meet, and what they have in common
+  // is not all below the piece.
   std::uint32_t pieces_near(std::uint32_t stroke, const Box3& box) const;
 
-  // Is the span of the ray below the tip plane during the whole stroke? Then nothing of the tool meets it.
-  bool below(std::uint32_t stroke, const Ray& ray, double lo, double hi) const;
+  // The pieces that the span of the ray is not below of during the whole stroke, out of `pieces`.
+  std::uint32_t pieces_not_above(std::uint32_t stroke, std::uint32_t pieces, const Ray& ray, double lo, double hi) const;
+
+  // swept_piece.h: clear_below of the ring.
+  bool ring_clear_below(std::uint32_t stroke, const Ray& ray, double hi, double radius, double spread) const {
+    return clear_below(ring_, strokes_[stroke], ray, hi, radius, spread);
+  }
 
   // Calls visit(from, to) for the parts of lo <= t <= hi that the stroke sweeps, piece by piece: they may
   // overlap.
@@ -36,20 +42,22 @@ class ToolSweep {
                    const Visit& visit) const {
     const Stroke& s = strokes_[stroke];
     const auto pass = [&](const Spans& spans) {
-      for (int i = 0; i < spans.count; ++i)
-        visit(spans.span[std::size_t(i)].from, spans.span[std::size_t(i)].to);
+      for (std::size_t i = 0; i < spans.count; ++i)
+        visit(spans.span[i].from, spans.span[i].to);
     };
-    if (pieces & 1) pass(swept_spans(ring_, s, tool_.minor_radius, ray, lo, hi));
+    if (pieces & 1) pass(swept_spans(ring_, s, ray, lo, hi));
     for (std::size_t k = 0; k < cones_.size(); ++k)
-      if (pieces >> (k + 1) & 1) pass(swept_spans(cones_[k], s, tool_.minor_radius, ray, lo, hi));
+      if (pieces >> (k + 1) & 1) pass(swept_spans(cones_[k], s, ray, lo, hi));
   }
 
  private:
   void add_boxes(const Stroke& stroke);
+  double highest(std::uint32_t stroke, const Box3& box) const;
 
   Tool tool_;
   RingShape ring_;
   std::vector<ConeShape> cones_;
+  std::vector<double> bottoms_;  // of each piece, above the torus centre
   std::vector<Stroke> strokes_;
   std::vector<double> sagitta_;  // of each stroke, over the whole tool
   std::vector<Box3> boxes_;      // pieces() a stroke
