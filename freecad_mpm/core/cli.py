@@ -111,6 +111,37 @@ def make_parser() -> Parser:
     spins.set_defaults(function="spins_of")
     _add_threads(spins)
 
+    cut = commands.add_parser(
+        "cut", help="cut a plan, a CL file or a program into the stock and measure what is left"
+    )
+    cut.add_argument("job", metavar="JOB.toml")
+    cut.add_argument("program", metavar="PROGRAM|cl.csv", nargs="?", help="default: the job is planned")
+    cut.add_argument("--out", metavar="DIR", required=True, help="folder for the results, made when missing")
+    cut.add_argument(
+        "--resolution-mm",
+        metavar="MM",
+        type=_positive,
+        default=0.5,
+        help="between dexels and points; default: 0.5",
+    )
+    cut.add_argument(
+        "--box", metavar="MM", type=float, nargs=6, help="only there: lo x y z, hi x y z, set-up frame"
+    )
+    cut.add_argument(
+        "--section", metavar="PLANE", action="append", help="x=MM or y=MM; may be given several times"
+    )
+    cut.add_argument(
+        "--probe-radius-mm", metavar="MM", type=_positive, help="measure the sections with such a ball, too"
+    )
+    cut.add_argument(
+        "--mesh", metavar="NAME", default="machined.stl", help="the stock's file: .stl, .ply or .obj"
+    )
+    cut.add_argument("--machine", metavar="NAME", help="that makes the program's moves; default: the job's")
+    cut.add_argument(
+        "--post", metavar="NAME", help="whose dialect the program is; default: the one it looks like"
+    )
+    _add_threads(cut)
+
     bench = commands.add_parser("bench", help="compare the methods and write bench.json")
     bench.add_argument(
         "--surfaces", nargs="+", metavar="NAME", help="shipped examples or job files; default: thesis"

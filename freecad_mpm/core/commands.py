@@ -12,6 +12,7 @@ from . import (
     bench_picture,
     bench_scaling,
     bench_summary,
+    cut_command,
     job,
     markers,
     output,
@@ -65,6 +66,27 @@ def check(arguments: Namespace, progress: ProgressLine) -> int:
     )
     print(*found.lines, sep="\n")
     return GOOD if found.good else NOT_GOOD
+
+
+def cut(arguments: Namespace, progress: ProgressLine) -> int:
+    output.check_folder(arguments.out)
+    good, text, files = cut_command.run(
+        arguments.job,
+        arguments.program,
+        resolution_mm=arguments.resolution_mm,
+        planes=arguments.section or (),
+        probe_radius_mm=arguments.probe_radius_mm,
+        box=arguments.box,
+        mesh=arguments.mesh,
+        machine=arguments.machine,
+        post=arguments.post,
+        threads=arguments.threads,
+        on_progress=progress,
+    )
+    progress.clear()
+    print(text, end="")
+    _write(arguments.out, files)
+    return GOOD if good else NOT_GOOD
 
 
 def bench(arguments: Namespace, progress: ProgressLine) -> int:

@@ -17,11 +17,15 @@ from numpy.typing import NDArray
 
 from .. import _core
 from .model import Scene
+from .section import Section, probed, section
 from .stages import Cancel, Progress, Stages
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 Names = NDArray[np.str_]
+
+# Points of a section lie at most so far apart unless it is asked otherwise: a cusp shows.
+SECTION_SPACING_MM = 0.05
 
 # Moves of these kinds take nothing away, whatever they run through.
 NOT_CUTTING = ("rapid",)
@@ -129,6 +133,16 @@ class Cut:
             _core.Context(),
         )
 
+    def section(
+        self, origin: Sequence[float], normal: Sequence[float], spacing_mm: float = SECTION_SPACING_MM
+    ) -> Section:
+        """The machined surface along a plane (part frame): `section.section`."""
+        return section(self, origin, normal, spacing_mm)
+
+    def probed(self, of: Section, radius_mm: float) -> Floats:
+        """What a measuring machine with a ball of `radius_mm` finds along a section: `section.probed`."""
+        return probed(self, of, radius_mm)
+
     def _extreme(self, i: int) -> Extreme:
         found = self.deviation
         return Extreme(float(found.deviation_mm[i]), found.points[i], int(found.move[i]))
@@ -211,16 +225,18 @@ def cut_rays(
     sweep: Any, points: Floats, directions: Floats, stock: Box, below_mm: float, context: Any
 ) -> tuple[Floats, Integers]:
     """Heights (N,) and moves (N,) on rays from `points` along `directions` (N, 3) (set-up frame) that material fills up to
-    the stock's box."""
-    full = _way_out(points, directions, stock)
+    the top of the stock; beside the stock's box it goes on for `below_mm`, so that a border has its scallops.
+    """
+    aside = np.array([below_mm, below_mm, 0.0])
+    full = _way_out(points, directions, Box(stock.lo - aside, stock.hi + aside))
     height, move = _core.cut_rays(sweep, points, directions, full, below_mm=below_mm, context=context)
     return height, move.astype(np.int64)
 
 
-def _way_out(points: Floats, directions: Floats, stock: Box) -> Floats:
+def _way_out(points: Floats, directions: Floats, box: Box) -> Floats:
     """(N,): how far each ray goes until it leaves the box, 0 for points outside."""
     with np.errstate(divide="ignore", invalid="ignore"):
-        far = np.where(directions > 0, stock.hi - points, stock.lo - points) / directions
+        far = np.where(directions > 0, box.hi - points, box.lo - points) / directions
     far = np.where(directions == 0, np.inf, far)
     return np.asarray(np.maximum(far.min(axis=1), 0.0))
 
