@@ -17,6 +17,7 @@ from . import (
     markers,
     output,
     planning,
+    published,
     report,
     results,
     spacing,
@@ -91,6 +92,8 @@ def cut(arguments: Namespace, progress: ProgressLine) -> int:
 
 def bench(arguments: Namespace, progress: ProgressLine) -> int:
     output.check_folder(arguments.out)
+    if arguments.published:
+        return _bench_published(arguments, progress)
     pages = {name: markers.read(name) for name in arguments.markdown}
     blocks, files = (_scaling if arguments.scaling else _comparison)(arguments, progress)
     rewritten = {name: markers.replaced(text, blocks, name) for name, text in pages.items()}
@@ -156,6 +159,18 @@ def spins_of(arguments: Namespace, progress: ProgressLine) -> int:
     progress.clear()
     print(*spins.summary(found), sep="\n")
     _write(arguments.out, files)
+    return GOOD
+
+
+def _bench_published(arguments: Namespace, progress: ProgressLine) -> int:
+    measured = []
+    for one in published.measure_all(on_progress=progress, threads=arguments.threads):
+        measured.append(one)
+        progress.clear()
+        print(published.table([one.row]).splitlines()[-1], flush=True)
+    rows = [one.row for one in measured]
+    print("\n" + published.table(rows))
+    _write(arguments.out, published.files(measured))
     return GOOD
 
 

@@ -191,6 +191,22 @@ def to_json(rows: Sequence[dict[str, Any]]) -> str:
     return json.dumps({"section_y_mm": SECTION_Y_MM, "rows": list(rows)}, indent=2, allow_nan=False) + "\n"
 
 
+# The cases of a picture, as the thesis' figures 5.3 (DRD) and 5.5 (VCRF), and ours.
+PICTURED = ("DRD", "VCRF", "exact")
+
+
+def files(measured: Sequence[Measured]) -> dict[str, bytes | str]:
+    """The rows as JSON and text, and a picture a surface."""
+    rows = [one.row for one in measured]
+    result: dict[str, bytes | str] = {"published.json": to_json(rows), "published.txt": table(rows) + "\n"}
+    for surface in dict.fromkeys(one.surface for one in measured):
+        shown = [one for one in measured if one.surface == surface and one.case.label in PICTURED]
+        if shown:
+            name = surface.replace(", ", "_")
+            result[f"published_{name}.png"] = picture(shown, f"{surface}: section at Y = {SECTION_Y_MM:g} mm")
+    return result
+
+
 def picture(measured: Sequence[Measured], title: str) -> bytes:
     """The modelled and the machined section, as the thesis' figures 5.3 and 5.5 show them, and below their distance."""
     figure = Figure(figsize=(16, 10), dpi=100, facecolor="white")

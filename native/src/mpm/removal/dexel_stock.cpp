@@ -111,7 +111,7 @@ void DexelField::cut_tile(std::size_t index, const ToolSweep& sweep, const Conte
   Box3 box = bounds();
   std::vector<std::uint32_t> strokes;
   if (!box.empty())
-    order_strokes(sweep, box, rays[kTileRays / 2 + kSide / 2], {box.lo[axis_], box.hi[axis_]}, strokes);
+    order_strokes(sweep, box, box.center(), strokes);
   if (strokes.empty()) return;
   SpanList gaps;
   std::size_t tried = 0;

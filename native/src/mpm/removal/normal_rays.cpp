@@ -60,8 +60,7 @@ class TileCut {
 
   void run(const Context& context) {
     look_again();
-    const Ray& ray = rays_.rays[tile_.middle()];
-    order_strokes(sweep_, tile_.box, ray, {-rays_.below, tile_.top}, strokes_);
+    order_strokes(sweep_, tile_.box, rays_.rays[tile_.middle()].origin, strokes_);
     std::size_t tried = 0;
     for (const std::uint32_t stroke : strokes_) {
       if (context.cancelled()) return;

@@ -38,22 +38,10 @@ std::vector<std::uint32_t> near_together(const std::vector<Ray>& rays) {
   return order;
 }
 
-void order_strokes(const ToolSweep& sweep,
-                   const Box3& box,
-                   const Ray& ray,
-                   const Span& probe,
-                   std::vector<std::uint32_t>& strokes) {
+void order_strokes(const ToolSweep& sweep, const Box3& box, const Vec3& point, std::vector<std::uint32_t>& strokes) {
   sweep.strokes_near(box, strokes);
   std::vector<std::pair<double, std::uint32_t>> keys;
-  for (const std::uint32_t i : strokes) {
-    double entry = kInfinity;
-    const std::uint32_t pieces =
-        sweep.pieces_not_above(i, sweep.pieces_near(i, box), ray, probe.from, probe.to);
-    sweep.visit_spans(i, pieces, ray, probe.from, probe.to, [&](double from, double) {
-      entry = std::min(entry, from);
-    });
-    keys.emplace_back(entry, i);
-  }
+  for (const std::uint32_t i : strokes) keys.emplace_back(sweep.distance(i, point), i);
   std::sort(keys.begin(), keys.end());
   std::transform(keys.begin(), keys.end(), strokes.begin(), [](const auto& k) { return k.second; });
 }

@@ -13,12 +13,8 @@ inline constexpr std::size_t kTileRays = 64;
 // Numbers of the rays, those whose origins are near each other next to each other (Morton order).
 std::vector<std::uint32_t> near_together(const std::vector<Ray>& rays);
 
-// The strokes that may meet `box`, those first that enter the span `probe` of a ray in its middle earliest:
-// what they cut away need not be looked at for the others.
-void order_strokes(const ToolSweep& sweep,
-                   const Box3& box,
-                   const Ray& ray,
-                   const Span& probe,
-                   std::vector<std::uint32_t>& strokes);
+// The strokes that may meet `box`, those first that cut deepest at a point in its middle: what they take away need not
+// be looked at for the others.
+void order_strokes(const ToolSweep& sweep, const Box3& box, const Vec3& point, std::vector<std::uint32_t>& strokes);
 
 }  // namespace mpm

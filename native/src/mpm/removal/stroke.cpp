@@ -15,7 +15,7 @@ constexpr double kMissedDip = 5e-4;
 constexpr double kStraightAngle = 1e-9;  // radians: the axis does not turn
 
 Stroke make_stroke(const Tool& tool, const TipPose& a, const TipPose& b, std::uint32_t move) {
-  Stroke s{a.tip, b.tip - a.tip, a.axis, Vec3::Zero(), angle_between(a.axis, b.axis), move, tool.minor_radius, {}, {}};
+  Stroke s{a.tip, b.tip - a.tip, a.axis, Vec3::Zero(), angle_between(a.axis, b.axis), move, tool.minor_radius, (b.tip - a.tip).norm(), {}, {}};
   const Vec3 across = b.axis - b.axis.dot(a.axis) * a.axis;
   if (s.angle < kStraightAngle)
     s.angle = 0;

@@ -34,15 +34,16 @@ struct Stroke {
   double angle;     // radians, 0 <= angle <= kStrokeAngle
   std::uint32_t move;
   double minor_radius;  // of the tool
+  double length;        // of the travel
   std::array<StrokePose, 2> ends;  // at times 0 and 1
   StrokePose middle;               // at time 1/2
 
   StrokePose at(double time) const;
   // No point at distance `lever` from the torus centre moves farther against the tool during the stroke, mm.
-  double motion(double lever) const { return travel.norm() + angle * (minor_radius + lever); }
+  double motion(double lever) const { return length + angle * (minor_radius + lever); }
   // By how much the height of a point above the tip plane at any time may be below the lesser of its heights
   // at the two ends; for points within `reach` mm of the tip.
-  double sagitta(double reach) const { return angle * travel.norm() / 2 + reach * angle * angle / 8; }
+  double sagitta(double reach) const { return angle * length / 2 + reach * angle * angle / 8; }
 };
 
 inline constexpr double kStrokeAngle = 0.05;  // radians a stroke turns at most

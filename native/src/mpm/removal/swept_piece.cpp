@@ -44,7 +44,7 @@ double concavity(const ConeShape&, double, double) { return 0; }
 // the distance may curve down in between; and it changes by no more than the motion.
 template <class Shape>
 double time_bound(const Shape& shape, const Stroke& stroke, const Vec3& point, const Reading& a, const Reading& b) {
-  const double lever = (point - stroke.middle.center).norm() + stroke.travel.norm();
+  const double lever = (point - stroke.middle.center).norm() + stroke.length;
   const double motion = stroke.motion(lever);
   const double by_motion = 0.5 * (a.distance + b.distance - motion);
   const double curve = concavity(shape, motion, std::min(a.radius, b.radius) - 0.5 * motion) +
@@ -295,21 +295,46 @@ bool outside_circle(const RingShape& ring,
 Stroke standing(const Stroke& stroke, const StrokePose& pose) {
   const StrokePose still{pose.center, pose.axis, Vec3::Zero(), Vec3::Zero()};
   const Vec3 tip = pose.center - stroke.minor_radius * pose.axis;
-  return {tip, Vec3::Zero(), pose.axis, Vec3::Zero(), 0, stroke.move, stroke.minor_radius, {still, still}, still};
+  return {tip, Vec3::Zero(), pose.axis, Vec3::Zero(), 0, stroke.move, stroke.minor_radius, 0, {still, still}, still};
 }
 
 }  // namespace
 
+Span clipped(const Ray& ray, const Span& span, const Box3& box) {
+  Span part = span;
+  for (int k = 0; k < 3; ++k) {
+    const double d = ray.direction[k], lo = box.lo[k] - ray.origin[k], hi = box.hi[k] - ray.origin[k];
+    if (d == 0) {
+      if (lo > 0 || hi < 0) return {1, 0};
+      continue;
+    }
+    part.from = std::max(part.from, (d > 0 ? lo : hi) / d);
+    part.to = std::min(part.to, (d > 0 ? hi : lo) / d);
+  }
+  return part;
+}
+
 bool clear_below(
     const RingShape& ring, const Stroke& stroke, const Ray& ray, double hi, double radius, double spread) {
-  const Vec3 point = ray.at(hi);
-  const Reading a = read_shape(ring, point, ray.direction, stroke.ends[0]);
-  const Reading b = read_shape(ring, point, ray.direction, stroke.ends[1]);
-  return time_bound(ring, stroke, point, a, b) > radius && recedes(ring, stroke, point, -ray.direction, radius, spread);
+  const Vec3 u = ray.at(hi) - stroke.middle.center;
+  const double z = u.dot(stroke.middle.axis), rise = ray.direction.dot(stroke.middle.axis);
+  const double lever = u.norm() + stroke.length, half = 0.5 * stroke.motion(lever), margin = radius + half;
+  const double c = rise - spread - 0.5 * stroke.angle;
+  if (z >= -margin || c <= 0) return false;
+  const double r = std::sqrt(std::max(u.squaredNorm() - z * z, 0.0)), rho = std::abs(r - ring.major);
+  // See recedes: the same for all times at once.
+  const double fall = -z - margin, aside = rho + margin;
+  if (c * c * fall * fall < (1 - c * c) * aside * aside) return false;
+  const double distance = hypotenuse(rho, z) - ring.minor;
+  if (distance - half > radius) return true;
+  const Reading middle = read_shape(ring, ray.at(hi), ray.direction, stroke.middle);
+  const double curve = concavity(ring, 2 * half, r - half) + stroke.angle * stroke.angle * lever;
+  return distance - 0.5 * std::abs(middle.rate) - curve / 8 > radius;
 }
 
 Spans swept_spans(
     const RingShape& ring, const Stroke& stroke, const Ray& ray, double lo, double hi) {
+  if (clear_below(ring, stroke, ray, hi, 0, 0)) return {};
   const double middle = crossing(stroke, ray);
   const bool convex = ring.major == 0 || outside_circle(ring, stroke, ray, {lo, hi}, middle);
   Sweep sweep(ring, stroke, ray, convex && stroke.angle * ring.major < kBowTie);
@@ -325,10 +350,12 @@ Spans swept_spans(
 
 Spans swept_spans(const ConeShape& cone, const Stroke& stroke, const Ray& ray, double lo, double hi) {
   Spans spans;
-  spans.add(Sweep(cone, stroke, ray, true).span(lo, hi));
+  const std::optional<Span> swept = Sweep(cone, stroke, ray, true).span(lo, hi);
+  spans.add(swept);
   const double lever = std::max(std::abs(cone.z0), std::abs(cone.z1));
+  const bool whole = swept && swept->from <= lo && swept->to >= hi;
   // What a turning cone sweeps is waisted, and a ray along it may lose its way: the cone at both ends is convex.
-  if (stroke.angle * lever > kBowTie)
+  if (!whole && stroke.angle * lever > kBowTie)
     for (const StrokePose& pose : stroke.ends) spans.add(Sweep(cone, standing(stroke, pose), ray, true).span(lo, hi));
   return spans;
 }

@@ -13,10 +13,13 @@ struct Ray {
   Vec3 at(double t) const { return origin + t * direction; }
 };
 
-// The part from <= t <= to of a ray (mm from its origin).
+// The part from <= t <= to of a ray (mm from its origin); none when from > to.
 struct Span {
   double from, to;
 };
+
+// The part of a span of the ray that lies in the box.
+Span clipped(const Ray& ray, const Span& span, const Box3& box);
 
 // The ring: all points within `minor` of a circle of radius `major` about the axis, at height 0.
 struct RingShape {

@@ -83,6 +83,19 @@ double ToolSweep::highest(std::uint32_t stroke, const Box3& box) const {
   return height + sagitta_[stroke];
 }
 
+double ToolSweep::distance(std::uint32_t stroke, const Vec3& point) const {
+  const StrokePose& pose = strokes_[stroke].middle;
+  return signed_distance(tool_, ToolPose{pose.center, pose.axis}, point);
+}
+
+Spans ToolSweep::piece_spans(std::uint32_t stroke, std::size_t piece, const Ray& ray, const Span& span) const {
+  const Span part = clipped(ray, span, boxes_[stroke * (cones_.size() + 1) + piece]);
+  if (part.from > part.to) return {};
+  const Stroke& s = strokes_[stroke];
+  return piece == 0 ? swept_spans(ring_, s, ray, part.from, part.to)
+                    : swept_spans(cones_[piece - 1], s, ray, part.from, part.to);
+}
+
 std::uint32_t ToolSweep::pieces_not_above(
     std::uint32_t stroke, std::uint32_t pieces, const Ray& ray, double lo, double hi) const {
   double height = -kInfinity;

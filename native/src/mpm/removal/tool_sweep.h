@@ -26,33 +26,33 @@ class ToolSweep {
   // The pieces that the span of the ray is not below of during the whole stroke, out of `pieces`.
   std::uint32_t pieces_not_above(std::uint32_t stroke, std::uint32_t pieces, const Ray& ray, double lo, double hi) const;
 
+  // Signed distance of a point from the tool half way through the stroke.
+  double distance(std::uint32_t stroke, const Vec3& point) const;
+
   // swept_piece.h: clear_below of the ring.
   bool ring_clear_below(std::uint32_t stroke, const Ray& ray, double hi, double radius, double spread) const {
     return clear_below(ring_, strokes_[stroke], ray, hi, radius, spread);
   }
 
-  // Calls visit(from, to) for the parts of lo <= t <= hi that the stroke sweeps, piece by piece: they may
-  // overlap.
+  // Calls visit(from, to) for the parts of lo <= t <= hi that the stroke sweeps, piece by piece: they may overlap. The
+  // pieces that follow are left out when one sweeps the whole.
   template <class Visit>
-  void visit_spans(std::uint32_t stroke,
-                   std::uint32_t pieces,
-                   const Ray& ray,
-                   double lo,
-                   double hi,
-                   const Visit& visit) const {
-    const Stroke& s = strokes_[stroke];
-    const auto pass = [&](const Spans& spans) {
-      for (std::size_t i = 0; i < spans.count; ++i)
-        visit(spans.span[i].from, spans.span[i].to);
-    };
-    if (pieces & 1) pass(swept_spans(ring_, s, ray, lo, hi));
-    for (std::size_t k = 0; k < cones_.size(); ++k)
-      if (pieces >> (k + 1) & 1) pass(swept_spans(cones_[k], s, ray, lo, hi));
+  void visit_spans(
+      std::uint32_t stroke, std::uint32_t pieces, const Ray& ray, double lo, double hi, const Visit& visit) const {
+    for (std::size_t k = 0; pieces >> k != 0; ++k)
+      if (pieces >> k & 1) {
+        const Spans spans = piece_spans(stroke, k, ray, {lo, hi});
+        for (std::size_t i = 0; i < spans.count; ++i) {
+          visit(spans.span[i].from, spans.span[i].to);
+          if (spans.span[i].from <= lo && spans.span[i].to >= hi) return;
+        }
+      }
   }
 
  private:
   void add_boxes(const Stroke& stroke);
   double highest(std::uint32_t stroke, const Box3& box) const;
+  Spans piece_spans(std::uint32_t stroke, std::size_t piece, const Ray& ray, const Span& span) const;
 
   Tool tool_;
   RingShape ring_;
