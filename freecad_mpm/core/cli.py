@@ -148,7 +148,9 @@ def make_parser() -> Parser:
     )
     bench.add_argument("--methods", nargs="+", metavar="NAME", help="default: all")
     bench.add_argument(
-        "--published", action="store_true", help="instead: the thesis' tables 2 and 3, its figures beside ours"
+        "--published",
+        action="store_true",
+        help="instead: the thesis' tables 2 and 3, its figures beside ours",
     )
     bench.add_argument("--out", metavar="DIR", default="out", help="folder for bench.json; default: out")
     bench.add_argument("--csv", metavar="FILE", help="also write the rows to this file in --out, as CSV")

@@ -268,7 +268,9 @@ def _stock_box(
 def _deviation(
     scene: Scene, sweep: Any, stock: Box, only_inside: bool, spacing_mm: float, stages: Stages
 ) -> Deviation:
-    samples = stages.run_native("samples", _core.sample_surfaces, scene.model, spacing_mm=spacing_mm)
+    samples = stages.run_native(
+        "samples", _core.sample_surfaces, scene.model, spacing_mm=spacing_mm, lo=stock.lo, hi=stock.hi
+    )
     if only_inside:
         samples = _inside(samples, stock)
     points, normals = samples["points"], samples["normals"]

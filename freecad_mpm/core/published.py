@@ -184,7 +184,14 @@ def table(rows: Sequence[dict[str, Any]]) -> str:
 def _cells(row: dict[str, Any]) -> tuple[str, ...]:
     thesis = "" if row["thesis_mm"] is None else f"{row['thesis_mm'][0]:.1e} .. {row['thesis_mm'][1]:.2f}"
     interior, all_passes = (f"{low:+.4f} .. {high:.3f}" for low, high in (row["interior_mm"], row["all_mm"]))
-    return (row["surface"], row["case"], thesis, interior, all_passes, f"{row['interior_vertical_max_mm']:.3f}")
+    return (
+        row["surface"],
+        row["case"],
+        thesis,
+        interior,
+        all_passes,
+        f"{row['interior_vertical_max_mm']:.3f}",
+    )
 
 
 def to_json(rows: Sequence[dict[str, Any]]) -> str:
@@ -218,7 +225,9 @@ def picture(measured: Sequence[Measured], title: str) -> bytes:
     for one, colour in zip(measured, ("#D55E00", "#0072B2", "#009E73", "#CC79A7", "#E69F00")):
         along = one.section.machined
         above.plot(along[:, 0], along[:, 2], color=colour, linewidth=0.9, label=one.case.label)
-        below.plot(one.section.s_mm, one.section.deviation_mm, color=colour, linewidth=0.9, label=one.case.label)
+        below.plot(
+            one.section.s_mm, one.section.deviation_mm, color=colour, linewidth=0.9, label=one.case.label
+        )
     below.axhline(0.0, color="#777777", linewidth=0.8)
     for axes, height in ((above, "Z / mm"), (below, "machined above modelled / mm")):
         axes.set_xlabel("X / mm")

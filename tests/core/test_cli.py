@@ -293,3 +293,36 @@ def test_a_reader_that_goes_away_is_no_error(thesis_part: Callable[[str], Path])
     assert process.stderr
     assert process.stderr.read() == ""
     assert process.wait(timeout=60) == 141
+
+
+def test_cut_measures_a_plan_and_its_files(job_file: Path, tmp_path: Path) -> None:
+    assert run("plan", job_file, "--out", tmp_path / "plan")[0] == 0
+    out = tmp_path / "cut"
+    for source in ("cl.csv", "program.I"):
+        status, text, error = run(
+            *("cut", job_file, tmp_path / "plan" / source, "--out", out, "--resolution-mm", 6),
+            *("--section", "y=27", "--probe-radius-mm", 2, "--mesh", "left.obj"),
+        )
+        assert (status, error) == (0, "")
+        assert "Worst gouge: " in text and "Section y27:" in text and "by probe" in text
+        names = {"cut.json", "cut.txt", "deviation.png", "section_y27.csv", "section_y27.png", "left.obj"}
+        assert {path.name for path in out.iterdir()} == names
+        facts = json.loads((out / "cut.json").read_text())
+        assert facts["worst_gouge"]["move"] >= 0 and facts["sections"]["y27"]["max_mm"] > 1
+        rows = list(csv.DictReader((out / "section_y27.csv").read_text().splitlines()))
+        assert {float(row["y"]) for row in rows} == {27.0}
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--resolution-mm", "0"], "--resolution-mm: must be a positive number of mm"),
+        (["--section", "z=3"], "--section: must be x=… or y=…"),
+        (["--mesh", "a.3mf"], "a.3mf: a mesh file must end in one of"),
+        (["--resolution-mm", "0.0001"], "gives more than"),
+    ],
+)
+def test_cut_says_what_is_wrong(words: list[str], said: str, job_file: Path, tmp_path: Path) -> None:
+    status, out, error = run("cut", job_file, "--out", tmp_path / "out", *words)
+    assert (status, out) == (2, "") and said in error and error.count("\n") == 1
+    assert not (tmp_path / "out").exists()

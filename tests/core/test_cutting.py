@@ -39,7 +39,9 @@ def scene_of(face: FaceArrays, tool: ToolSpec | None = None) -> Scene:
 
 def moves(rows: list[tuple[str, list[float]]], axis: np.ndarray = UP) -> SimpleNamespace:
     tip = np.array([at for _, at in rows], dtype=float)
-    return SimpleNamespace(kind=np.array([kind for kind, _ in rows]), tip=tip, axis=np.tile(axis, (len(tip), 1)))
+    return SimpleNamespace(
+        kind=np.array([kind for kind, _ in rows]), tip=tip, axis=np.tile(axis, (len(tip), 1))
+    )
 
 
 def passes_over(slope: float, side_step: float) -> SimpleNamespace:
@@ -58,7 +60,7 @@ def test_scallops_on_an_inclined_plane_have_their_closed_form(slope: float) -> N
     step = side_step * np.hypot(slope, 1.0)
     scallop = BALL_MM - np.sqrt(BALL_MM**2 - step**2 / 4)
     errors = []
-    for resolution in (2.0, 0.5, 0.1):
+    for resolution in (2.0, 0.5, 0.2):
         cut = cutting.cut(
             scene_of(plane(slope)), passes_over(slope, side_step), resolution, box=BOX, with_stock=False
         )
@@ -66,7 +68,11 @@ def test_scallops_on_an_inclined_plane_have_their_closed_form(slope: float) -> N
         assert values.min() == pytest.approx(0.0, abs=2e-6 if resolution < 1 else scallop)
         # Between two samples the steepest flank falls by its slope: the largest sample comes near the cusp.
         errors.append(scallop - values.max())
-        assert -1e-6 < errors[-1] < step / 2 / np.sqrt(BALL_MM**2 - step**2 / 4) * resolution * np.hypot(slope, 1)
+        assert (
+            -1e-6
+            < errors[-1]
+            < step / 2 / np.sqrt(BALL_MM**2 - step**2 / 4) * resolution * np.hypot(slope, 1)
+        )
     assert errors[2] <= errors[0]
     section = cut.section((0, 21.3, 0), (0, 1, 0), 0.02)
     assert section.deviation_mm.max() == pytest.approx(scallop, rel=0.01)
@@ -162,7 +168,8 @@ def test_the_mesh_lies_where_the_deviation_says(coarse: tuple[planning.Plan, cut
     mesh = cut.mesh()
     corners = mesh.vertices[mesh.triangles]
     volume = np.einsum("ij,ij->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6
-    assert volume == pytest.approx(cut.dexels.volume_mm3, rel=0.01)
+    # Corners are chamfered over a cell.
+    assert volume == pytest.approx(cut.dexels.volume_mm3, rel=0.03)
     lo, hi = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
     assert lo[:2] == pytest.approx([0.0, 0.0]) and hi[:2] == pytest.approx([150.0, 150.0])
     assert hi[2] <= plan.scene.frame.origin[2] + cut.stock.hi[2] + 1e-9
@@ -170,13 +177,13 @@ def test_the_mesh_lies_where_the_deviation_says(coarse: tuple[planning.Plan, cut
 
 def test_a_small_box_looks_closely(coarse: tuple[planning.Plan, cutting.Cut]) -> None:
     plan, _ = coarse
-    small = ([-5.0, -5.0, -20.0], [5.0, 5.0, 20.0])
+    small = ([-2.0, -2.0, 8.0], [2.0, 2.0, 16.0])
     cut = cutting.cut(plan.scene, plan.path, 0.05, box=small)
     setup = plan.scene.frame.to_setup(cut.deviation.points)
-    assert (setup >= small[0]).all() and (setup <= small[1]).all() and len(setup) > 30_000
-    assert cut.dexels.counts == [200, 200, 800]
-    needed = cutting.memory_needed(plan.scene, 0.05, box=small)
-    assert 0.3 < cut.dexels.bytes / needed < 3
+    assert (setup >= small[0]).all() and (setup <= small[1]).all() and 4000 < len(setup) < 12_000
+    assert cut.dexels.counts == [80, 80, 160]
+    with_stock, without = (cutting.memory_needed(plan.scene, 0.05, small, one) for one in (True, False))
+    assert cut.dexels.bytes == pytest.approx(with_stock - without, rel=0.5)
 
 
 def test_progress_and_cancel(coarse: tuple[planning.Plan, cutting.Cut]) -> None:

@@ -21,7 +21,11 @@ from freecad_mpm.core.stages import Stages
 
 FOLDER = os.environ.get("MPM_MANIFOLD", "")
 ROUND, ARC = 64, 8  # facets round the tool, and along a quarter of the corner
-FIRST, MOVES, PARTS = 230, 80, 3  # cuts of the path; each in so many hulls, for a hull fills the waist of a turning tool
+FIRST, MOVES, PARTS = (
+    230,
+    80,
+    3,
+)  # cuts of the path; each in so many hulls, for a hull fills the waist of a turning tool
 HEIGHT = 30.0  # of the tool that is cut with, mm
 
 # Places beside a point, mm: a wall between them shows.

@@ -69,11 +69,12 @@ py::list dexel(const DexelStock& stock, int axis, std::size_t u, std::size_t v) 
   return spans;
 }
 
-py::dict surface_samples(const SurfaceModel& model, double spacing_mm, Context& context) {
+py::dict surface_samples(
+    const SurfaceModel& model, double spacing_mm, const Vec3& lo, const Vec3& hi, Context& context) {
   SurfaceSamples samples;
   {
     py::gil_scoped_release release;
-    samples = sample_surfaces(model, spacing_mm, context);
+    samples = sample_surfaces(model, spacing_mm, Box3{lo, hi}, context);
   }
   py::dict result;
   result["points"] = from_vectors(samples.points), result["normals"] = from_vectors(samples.normals);
@@ -157,8 +158,11 @@ void bind_removal(py::module_& m) {
         py::arg("model"),
         py::kw_only(),
         py::arg("spacing_mm"),
+        py::arg("lo"),
+        py::arg("hi"),
         py::arg("context"),
-        "Points of the faces to machine about spacing_mm apart: dict of points, normals (N, 3), "
+        "Points of the faces to machine about spacing_mm apart, those well outside of lo..hi left out: dict "
+        "of points, normals (N, 3), "
         "at (N, 2), their parameters, face (N,), index into the model's, triangles (T, 3).");
 }
 

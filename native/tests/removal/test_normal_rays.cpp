@@ -67,12 +67,13 @@ TEST(NormalRays, TorusLeavesItsSlotProfile) {
   }
 }
 
-// Tilted across the feed by beta the ring sweeps an elliptic torus section: its lowest line is a circle of radius Ri
-// round the lowest point of the major circle.
+// Tilted across the feed by beta the ring sweeps an elliptic torus section: its lowest line is a circle of
+// radius Ri round the lowest point of the major circle.
 TEST(NormalRays, TiltedTorusLeavesAGroove) {
   const double tilt = 0.3;
   const Vec3 axis(std::sin(tilt), 0, std::cos(tilt));
-  const Vec3 lowest = 6.0 * axis + 6.7 * Vec3(std::cos(tilt), 0, -std::sin(tilt));  // of the major circle, tip at 0
+  const Vec3 lowest =
+      6.0 * axis + 6.7 * Vec3(std::cos(tilt), 0, -std::sin(tilt));  // of the major circle, tip at 0
   std::vector<Vec2> at;
   for (double x = 0; x <= 3; x += 0.25) at.emplace_back(lowest.x() + x, 0.0);
   const NormalRays rays = cut(upright(at, 20), kTorus, straight({0, -30, 0}, {0, 30, 0}, axis));
@@ -98,8 +99,10 @@ TEST(NormalRays, HolderCutsToo) {
 }
 
 TEST(NormalRays, GougesAreBelowZeroAndNameTheMove) {
-  const SweptPath path =
-      polyline({{{0, 0, 5}, Vec3::UnitZ()}, {{0, 0, -0.02}, Vec3::UnitZ()}, {{0, 0, 5}, Vec3::UnitZ()}, {{9, 0, 1}, Vec3::UnitZ()}});
+  const SweptPath path = polyline({{{0, 0, 5}, Vec3::UnitZ()},
+                                   {{0, 0, -0.02}, Vec3::UnitZ()},
+                                   {{0, 0, 5}, Vec3::UnitZ()},
+                                   {{9, 0, 1}, Vec3::UnitZ()}});
   const NormalRays rays = cut(upright({{0, 0}, {9, 0}}, 3), kBall, path);
   EXPECT_NEAR(rays.height[0], -0.02, 1e-6);
   EXPECT_EQ(rays.move[0], 1);
@@ -127,7 +130,8 @@ TEST(NormalRays, SameBytesForAnyThreadCountAndOrder) {
   for (Vec2& p : at) p = {place(random), place(random)};
   std::vector<TipPose> poses;
   for (int i = 0; i < 30; ++i)
-    poses.push_back({{place(random), place(random), 1 + 0.05 * i}, Vec3(0.02 * i - 0.3, 0.2, 1).normalized()});
+    poses.push_back(
+        {{place(random), place(random), 1 + 0.05 * i}, Vec3(0.02 * i - 0.3, 0.2, 1).normalized()});
   const NormalRays one = cut(upright(at, 12), kTorus, polyline(poses), 1);
   EXPECT_EQ(one.height, cut(upright(at, 12), kTorus, polyline(poses), 2).height);
   std::reverse(poses.begin(), poses.end());
@@ -139,7 +143,8 @@ TEST(NormalRays, NamesWhatIsWrong) {
   NormalRays rays = upright({{0, 0}}, 1);
   rays.rays[0].direction *= 2;
   EXPECT_THROW(cut(rays, kBall, straight({0, 0, 0}, {1, 0, 0})), std::invalid_argument);
-  EXPECT_THROW(cut(upright({{0, 0}}, 1), kBall, straight({0, 0, 0}, {1, 0, 0}, {1, 1, 0})), std::invalid_argument);
+  EXPECT_THROW(cut(upright({{0, 0}}, 1), kBall, straight({0, 0, 0}, {1, 0, 0}, {1, 1, 0})),
+               std::invalid_argument);
   EXPECT_THROW(cut(upright({{0, 0}}, 1), kBall, {{}, {1}}), std::invalid_argument);
 }
 

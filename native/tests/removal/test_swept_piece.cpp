@@ -41,7 +41,8 @@ const Tool kTools[] = {{6.7, 6.0, 6.0, 30, {{9, 9, 10}, {20, 30, 25}}},
                        {8, 0, 0, 20, {}},
                        {2, 6, 6, 20, {}}};
 
-// Rays in all directions against moves that travel and turn: what lies in the spans is swept, what does not is not.
+// Rays in all directions against moves that travel and turn: what lies in the spans is swept, what does not
+// is not.
 TEST(SweptPiece, AgreesWithDenseSampling) {
   Random random;
   int inside = 0, entries = 0, missed = 0;

@@ -89,6 +89,24 @@ Ray DexelField::ray(std::size_t u, std::size_t v) const {
   return ray;
 }
 
+// Upright dexels are cut first by the strokes that come lowest at their middle, others by those that lie
+// deepest round them: these take most away.
+double DexelField::order_key(const ToolSweep& sweep, std::uint32_t stroke, const Box3& box) const {
+  Vec3 point = box.center();
+  const StrokePose& pose = sweep.strokes()[stroke].middle;
+  if (axis_ != 2) {
+    point[axis_] = std::clamp(pose.center[axis_], box.lo[axis_], box.hi[axis_]);
+    return sweep.distance(stroke, point);
+  }
+  double entry = kInfinity;
+  const Ray upright{{point.x(), point.y(), 0}, Vec3::UnitZ()};
+  sweep.visit_spans(
+      stroke, sweep.pieces_near(stroke, box), upright, box.lo.z(), box.hi.z(), [&](double from, double) {
+        entry = std::min(entry, from);
+      });
+  return entry;
+}
+
 void DexelField::cut_tile(std::size_t index, const ToolSweep& sweep, const Context& context) {
   Tile& tile = tiles_[index];
   const std::size_t u0 = index % tiles_u_ * kSide, v0 = index / tiles_u_ * kSide;
@@ -111,7 +129,8 @@ void DexelField::cut_tile(std::size_t index, const ToolSweep& sweep, const Conte
   Box3 box = bounds();
   std::vector<std::uint32_t> strokes;
   if (!box.empty())
-    order_strokes(sweep, box, box.center(), strokes);
+    order_strokes(
+        sweep, box, [&](std::uint32_t i) { return order_key(sweep, i, box); }, strokes);
   if (strokes.empty()) return;
   SpanList gaps;
   std::size_t tried = 0;

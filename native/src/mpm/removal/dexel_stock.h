@@ -57,6 +57,7 @@ class DexelField {
   };
 
   Ray ray(std::size_t u, std::size_t v) const;
+  double order_key(const ToolSweep& sweep, std::uint32_t stroke, const Box3& box) const;
   std::size_t tile_of(std::size_t u, std::size_t v) const { return v / kSide * tiles_u_ + u / kSide; }
   static std::size_t slot(std::size_t u, std::size_t v) { return v % kSide * kSide + u % kSide; }
 

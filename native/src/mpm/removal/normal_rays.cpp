@@ -60,7 +60,10 @@ class TileCut {
 
   void run(const Context& context) {
     look_again();
-    order_strokes(sweep_, tile_.box, rays_.rays[tile_.middle()].origin, strokes_);
+    // Those first that cut deepest at the true surface.
+    const Vec3& point = rays_.rays[tile_.middle()].origin;
+    order_strokes(
+        sweep_, tile_.box, [&](std::uint32_t i) { return sweep_.distance(i, point); }, strokes_);
     std::size_t tried = 0;
     for (const std::uint32_t stroke : strokes_) {
       if (context.cancelled()) return;
@@ -78,8 +81,9 @@ class TileCut {
 
   std::uint32_t pieces_near(const Bundle& bundle, std::uint32_t stroke) const {
     const std::uint32_t pieces = sweep_.pieces_near(stroke, bundle.box);
-    const bool clear = (pieces & 1) && sweep_.ring_clear_below(
-        stroke, rays_.rays[bundle.middle()], bundle.top, bundle.radius, bundle.spread);
+    const bool clear =
+        (pieces & 1) && sweep_.ring_clear_below(
+                            stroke, rays_.rays[bundle.middle()], bundle.top, bundle.radius, bundle.spread);
     return clear ? pieces & ~std::uint32_t(1) : pieces;
   }
 

@@ -38,12 +38,4 @@ std::vector<std::uint32_t> near_together(const std::vector<Ray>& rays) {
   return order;
 }
 
-void order_strokes(const ToolSweep& sweep, const Box3& box, const Vec3& point, std::vector<std::uint32_t>& strokes) {
-  sweep.strokes_near(box, strokes);
-  std::vector<std::pair<double, std::uint32_t>> keys;
-  for (const std::uint32_t i : strokes) keys.emplace_back(sweep.distance(i, point), i);
-  std::sort(keys.begin(), keys.end());
-  std::transform(keys.begin(), keys.end(), strokes.begin(), [](const auto& k) { return k.second; });
-}
-
 }  // namespace mpm

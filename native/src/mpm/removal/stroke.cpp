@@ -15,7 +15,16 @@ constexpr double kMissedDip = 5e-4;
 constexpr double kStraightAngle = 1e-9;  // radians: the axis does not turn
 
 Stroke make_stroke(const Tool& tool, const TipPose& a, const TipPose& b, std::uint32_t move) {
-  Stroke s{a.tip, b.tip - a.tip, a.axis, Vec3::Zero(), angle_between(a.axis, b.axis), move, tool.minor_radius, (b.tip - a.tip).norm(), {}, {}};
+  Stroke s{a.tip,
+           b.tip - a.tip,
+           a.axis,
+           Vec3::Zero(),
+           angle_between(a.axis, b.axis),
+           move,
+           tool.minor_radius,
+           (b.tip - a.tip).norm(),
+           {},
+           {}};
   const Vec3 across = b.axis - b.axis.dot(a.axis) * a.axis;
   if (s.angle < kStraightAngle)
     s.angle = 0;
@@ -67,7 +76,8 @@ std::vector<Stroke> make_strokes(const Tool& tool, const SweptPath& path) {
         std::max((b.tip - a.tip).norm() / longest, angle_between(a.axis, b.axis) / kStrokeAngle);
     const int count = std::max(1, int(std::ceil(parts)));
     for (int k = 0; k < count; ++k)
-      strokes.push_back(make_stroke(tool, pose_between(a, b, double(k) / count),
+      strokes.push_back(make_stroke(tool,
+                                    pose_between(a, b, double(k) / count),
                                     pose_between(a, b, double(k + 1) / count),
                                     std::uint32_t(i)));
   }

@@ -33,8 +33,8 @@ struct Stroke {
   Vec3 axis, side;  // side: unit, square to the axis
   double angle;     // radians, 0 <= angle <= kStrokeAngle
   std::uint32_t move;
-  double minor_radius;  // of the tool
-  double length;        // of the travel
+  double minor_radius;             // of the tool
+  double length;                   // of the travel
   std::array<StrokePose, 2> ends;  // at times 0 and 1
   StrokePose middle;               // at time 1/2
 

@@ -20,7 +20,10 @@ struct SurfaceSamples {
 // Samples at most about `spacing` mm apart on a grid of the parameters of each face to machine, and along its
 // trimming loops (points without triangles). Throws std::invalid_argument for a spacing that is not positive
 // or gives more than kMaxSamples points.
-SurfaceSamples sample_surfaces(const SurfaceModel& model, double spacing, Context& context);
+SurfaceSamples sample_surfaces(const SurfaceModel& model,
+                               double spacing,
+                               const Box3& region,
+                               Context& context);
 
 inline constexpr double kMaxSamples = 5e7;
 

@@ -11,8 +11,8 @@ namespace {
 constexpr double kTimeEpsilon = 1e-9;  // mm by which the least distance over time may be too large
 constexpr int kTimeSteps = 12, kHintSteps = 3, kRaySteps = 60, kRootSteps = 60;
 constexpr double kLookBeyond = 0.25;  // of a Newton step: how much farther to look for a point outside
-constexpr double kBowTie = 1e-4;    // mm: how far turning may carry a point aside before it is heeded
-constexpr double kParallel = 1e-9;  // 1 - cos^2 of the angle between ray and axis
+constexpr double kBowTie = 1e-4;      // mm: how far turning may carry a point aside before it is heeded
+constexpr double kParallel = 1e-9;    // 1 - cos^2 of the angle between ray and axis
 
 // Distance from a body of revolution at radius r and height z, and its gradient there.
 ConeDistance distance_at(const RingShape& ring, double r, double z) {
@@ -31,8 +31,9 @@ struct Reading {
   double radius;    // mm from the axis
 };
 
-// How strongly the distance may curve downwards over the stroke's time (per unit of time squared) at points at least
-// `radius` from the axis and outside the shape: it is convex but inside the ring's circle, and but for the turning.
+// How strongly the distance may curve downwards over the stroke's time (per unit of time squared) at points
+// at least `radius` from the axis and outside the shape: it is convex but inside the ring's circle, and but
+// for the turning.
 double concavity(const RingShape& ring, double motion, double radius) {
   if (radius >= ring.major) return 0;
   const double size = std::max(ring.minor, ring.major - radius);
@@ -40,10 +41,11 @@ double concavity(const RingShape& ring, double motion, double radius) {
 }
 double concavity(const ConeShape&, double, double) { return 0; }
 
-// A lower bound of the distance at all times from the readings at both ends: where their tangents meet, less what
-// the distance may curve down in between; and it changes by no more than the motion.
+// A lower bound of the distance at all times from the readings at both ends: where their tangents meet, less
+// what the distance may curve down in between; and it changes by no more than the motion.
 template <class Shape>
-double time_bound(const Shape& shape, const Stroke& stroke, const Vec3& point, const Reading& a, const Reading& b) {
+double time_bound(
+    const Shape& shape, const Stroke& stroke, const Vec3& point, const Reading& a, const Reading& b) {
   const double lever = (point - stroke.middle.center).norm() + stroke.length;
   const double motion = stroke.motion(lever);
   const double by_motion = 0.5 * (a.distance + b.distance - motion);
@@ -67,9 +69,10 @@ Reading read_shape(const Shape& shape, const Vec3& point, const Vec3& direction,
   return {d.distance, turn - gradient.dot(pose.center_rate), gradient.dot(direction), r};
 }
 
-// On every line from a point near `point` about along `way`, away from the tool's tip, does the distance from the ring's
-// circle grow all the way at all times of the stroke? With |z| growing by c and |r - Ro| falling by s at most for each mm
-// the sum of their squares grows from the start when c |z| >= s |r - Ro|, and then ever after.
+// On every line from a point near `point` about along `way`, away from the tool's tip, does the distance from
+// the ring's circle grow all the way at all times of the stroke? With |z| growing by c and |r - Ro| falling
+// by s at most for each mm the sum of their squares grows from the start when c |z| >= s |r - Ro|, and then
+// ever after.
 bool recedes(const RingShape& ring,
              const Stroke& stroke,
              const Vec3& point,
@@ -98,7 +101,9 @@ class Sweep {
   std::optional<Span> span(double lo, double hi) {
     const Vec3 point = ray_.at(hi);
     const Reading a = read(point, stroke_.ends[0]), b = read(point, stroke_.ends[1]);
-    if (time_bound(shape_, stroke_, point, a, b) > 0 && (convex_ ? std::max(a.slope, b.slope) <= 0 : receding(hi, -1))) return {};
+    if (time_bound(shape_, stroke_, point, a, b) > 0 &&
+        (convex_ ? std::max(a.slope, b.slope) <= 0 : receding(hi, -1)))
+      return {};
     const Reading top = least(point, a, b);
     if (top.distance <= 0) return Span{entry_below(lo, hi, top), hi};
     if (convex_ ? top.slope <= 0 : receding(hi, -1)) return {};
@@ -157,7 +162,8 @@ class Sweep {
     return best;
   }
 
-  // The least distance, followed from the last one by Newton steps over time; none when that does not lead there soon.
+  // The least distance, followed from the last one by Newton steps over time; none when that does not lead
+  // there soon.
   std::optional<Reading> near_hint(const Vec3& point) {
     double time = hint_.time;
     Reading now = read_at(point, time);
@@ -186,7 +192,8 @@ class Sweep {
   // Where the span that contains hi begins.
   double entry_below(double lo, double hi, const Reading& top) {
     if (top.slope < 0) {
-      // Where the distance is convex a Newton step from within ends outside; else it is the place to look first.
+      // Where the distance is convex a Newton step from within ends outside; else it is the place to look
+      // first.
       const double t = hi - top.distance / top.slope;
       if (convex_) {
         if (t > lo) return march(t, nearest(t), hi, 1).value_or(hi);
@@ -220,7 +227,8 @@ class Sweep {
     return {};
   }
 
-  // A point inside, between two outside from which the distance falls towards each other; none when there is none.
+  // A point inside, between two outside from which the distance falls towards each other; none when there is
+  // none.
   std::optional<double> inside_between(double ta, Reading a, double tb, Reading b) {
     for (int n = 0; n < kRaySteps; ++n) {
       // The distance changes by no more than the way.
@@ -245,8 +253,8 @@ class Sweep {
       return false;
   }
 
-  // The zero between a point outside and one inside: Newton steps from the outer one, halving where they leave the
-  // bracket; the outer end of what is left of it.
+  // The zero between a point outside and one inside: Newton steps from the outer one, halving where they
+  // leave the bracket; the outer end of what is left of it.
   double zero_between(double outside, Reading out, double inside, const Reading& in) {
     double t = outside - (inside - outside) * out.distance / (in.distance - out.distance);
     for (int n = 0; n < kRootSteps; ++n) {
@@ -278,11 +286,8 @@ double crossing(const Stroke& stroke, const Ray& ray) {
 }
 
 // Does lo <= t <= hi of the ray keep out of the ring's circle during the whole stroke?
-bool outside_circle(const RingShape& ring,
-                    const Stroke& stroke,
-                    const Ray& ray,
-                    const Span& part,
-                    double middle) {
+bool outside_circle(
+    const RingShape& ring, const Stroke& stroke, const Ray& ray, const Span& part, double middle) {
   const StrokePose& pose = stroke.middle;
   const Vec3 nearest = ray.at(std::clamp(middle, part.from, part.to)) - pose.center;
   const double r = nearest.cross(pose.axis).norm();
@@ -295,7 +300,16 @@ bool outside_circle(const RingShape& ring,
 Stroke standing(const Stroke& stroke, const StrokePose& pose) {
   const StrokePose still{pose.center, pose.axis, Vec3::Zero(), Vec3::Zero()};
   const Vec3 tip = pose.center - stroke.minor_radius * pose.axis;
-  return {tip, Vec3::Zero(), pose.axis, Vec3::Zero(), 0, stroke.move, stroke.minor_radius, 0, {still, still}, still};
+  return {tip,
+          Vec3::Zero(),
+          pose.axis,
+          Vec3::Zero(),
+          0,
+          stroke.move,
+          stroke.minor_radius,
+          0,
+          {still, still},
+          still};
 }
 
 }  // namespace
@@ -332,8 +346,7 @@ bool clear_below(
   return distance - 0.5 * std::abs(middle.rate) - curve / 8 > radius;
 }
 
-Spans swept_spans(
-    const RingShape& ring, const Stroke& stroke, const Ray& ray, double lo, double hi) {
+Spans swept_spans(const RingShape& ring, const Stroke& stroke, const Ray& ray, double lo, double hi) {
   if (clear_below(ring, stroke, ray, hi, 0, 0)) return {};
   const double middle = crossing(stroke, ray);
   const bool convex = ring.major == 0 || outside_circle(ring, stroke, ray, {lo, hi}, middle);
@@ -354,9 +367,11 @@ Spans swept_spans(const ConeShape& cone, const Stroke& stroke, const Ray& ray, d
   spans.add(swept);
   const double lever = std::max(std::abs(cone.z0), std::abs(cone.z1));
   const bool whole = swept && swept->from <= lo && swept->to >= hi;
-  // What a turning cone sweeps is waisted, and a ray along it may lose its way: the cone at both ends is convex.
+  // What a turning cone sweeps is waisted, and a ray along it may lose its way: the cone at both ends is
+  // convex.
   if (!whole && stroke.angle * lever > kBowTie)
-    for (const StrokePose& pose : stroke.ends) spans.add(Sweep(cone, standing(stroke, pose), ray, true).span(lo, hi));
+    for (const StrokePose& pose : stroke.ends)
+      spans.add(Sweep(cone, standing(stroke, pose), ray, true).span(lo, hi));
   return spans;
 }
 

@@ -44,18 +44,17 @@ struct Spans {
 // one where the distance is convex along the ray; elsewhere (inside the ring's circle) steps no longer than
 // the distance. A ring swept twice at a t in between them counts as swept throughout only on either side of
 // its axis.
-Spans swept_spans(
-    const RingShape& ring, const Stroke& stroke, const Ray& ray, double lo, double hi);
-Spans swept_spans(
-    const ConeShape& cone, const Stroke& stroke, const Ray& ray, double lo, double hi);
+Spans swept_spans(const RingShape& ring, const Stroke& stroke, const Ray& ray, double lo, double hi);
+Spans swept_spans(const ConeShape& cone, const Stroke& stroke, const Ray& ray, double lo, double hi);
 
 // Least signed distance (mm) of a point from the shape over the time of the stroke; for tests.
 double least_distance(const RingShape& ring, const Stroke& stroke, const Vec3& point);
 double least_distance(const ConeShape& cone, const Stroke& stroke, const Vec3& point);
 
-// May a bundle of rays be left out of account, whose points at the upper ends of their spans lie within `radius` mm of
-// `ray`'s at `hi`, and whose directions differ from its by no more than `spread` (sine)? True only when the ring keeps
-// clear of those points during the whole stroke and all lower points of the rays lie farther from it.
+// May a bundle of rays be left out of account, whose points at the upper ends of their spans lie within
+// `radius` mm of `ray`'s at `hi`, and whose directions differ from its by no more than `spread` (sine)? True
+// only when the ring keeps clear of those points during the whole stroke and all lower points of the rays lie
+// farther from it.
 bool clear_below(
     const RingShape& ring, const Stroke& stroke, const Ray& ray, double hi, double radius, double spread);
 

@@ -88,7 +88,10 @@ double ToolSweep::distance(std::uint32_t stroke, const Vec3& point) const {
   return signed_distance(tool_, ToolPose{pose.center, pose.axis}, point);
 }
 
-Spans ToolSweep::piece_spans(std::uint32_t stroke, std::size_t piece, const Ray& ray, const Span& span) const {
+Spans ToolSweep::piece_spans(std::uint32_t stroke,
+                             std::size_t piece,
+                             const Ray& ray,
+                             const Span& span) const {
   const Span part = clipped(ray, span, boxes_[stroke * (cones_.size() + 1) + piece]);
   if (part.from > part.to) return {};
   const Stroke& s = strokes_[stroke];

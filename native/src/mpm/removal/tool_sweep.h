@@ -19,12 +19,13 @@ class ToolSweep {
 
   // Numbers of the strokes whose box meets `box`, in a fixed order.
   void strokes_near(const Box3& box, std::vector<std::uint32_t>& result) const;
-  // Bit k: piece k of the tool (0: ring) may meet `box` during the stroke: their boxes meet, and what they have in common
-  // is not all below the piece.
+  // Bit k: piece k of the tool (0: ring) may meet `box` during the stroke: their boxes meet, and what they
+  // have in common is not all below the piece.
   std::uint32_t pieces_near(std::uint32_t stroke, const Box3& box) const;
 
   // The pieces that the span of the ray is not below of during the whole stroke, out of `pieces`.
-  std::uint32_t pieces_not_above(std::uint32_t stroke, std::uint32_t pieces, const Ray& ray, double lo, double hi) const;
+  std::uint32_t pieces_not_above(
+      std::uint32_t stroke, std::uint32_t pieces, const Ray& ray, double lo, double hi) const;
 
   // Signed distance of a point from the tool half way through the stroke.
   double distance(std::uint32_t stroke, const Vec3& point) const;
@@ -34,11 +35,15 @@ class ToolSweep {
     return clear_below(ring_, strokes_[stroke], ray, hi, radius, spread);
   }
 
-  // Calls visit(from, to) for the parts of lo <= t <= hi that the stroke sweeps, piece by piece: they may overlap. The
-  // pieces that follow are left out when one sweeps the whole.
+  // Calls visit(from, to) for the parts of lo <= t <= hi that the stroke sweeps, piece by piece: they may
+  // overlap. The pieces that follow are left out when one sweeps the whole.
   template <class Visit>
-  void visit_spans(
-      std::uint32_t stroke, std::uint32_t pieces, const Ray& ray, double lo, double hi, const Visit& visit) const {
+  void visit_spans(std::uint32_t stroke,
+                   std::uint32_t pieces,
+                   const Ray& ray,
+                   double lo,
+                   double hi,
+                   const Visit& visit) const {
     for (std::size_t k = 0; pieces >> k != 0; ++k)
       if (pieces >> k & 1) {
         const Spans spans = piece_spans(stroke, k, ray, {lo, hi});
