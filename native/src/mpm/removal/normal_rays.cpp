@@ -28,13 +28,14 @@ struct Bundle {
   const std::uint32_t* first;
   std::size_t count;
   Box3 box;
-  double top = 0, radius = 0, spread = 0;
+  double top = 0;
+  Neighbourhood near;
 
   std::uint32_t middle() const { return first[count / 2]; }
 
   void look_again(const NormalRays& rays) {
     box = {};
-    radius = spread = 0;
+    near = {};
     top = rays.height[middle()];
     const Vec3 middle_top = rays.rays[middle()].at(top);
     const Vec3& direction = rays.rays[middle()].direction;
@@ -43,8 +44,9 @@ struct Bundle {
       const Vec3 upper = ray.at(rays.height[first[i]]);
       box.extend(ray.at(-rays.below));
       box.extend(upper);
-      radius = std::max(radius, (upper - middle_top).norm());
-      spread = std::max(spread, (ray.direction - direction).norm());
+      near.radius = std::max(near.radius, (upper - middle_top).norm());
+      near.along = std::max(near.along, std::abs((upper - middle_top).dot(direction)));
+      near.spread = std::max(near.spread, (ray.direction - direction).norm());
     }
   }
 };
@@ -53,9 +55,9 @@ struct Bundle {
 class TileCut {
  public:
   TileCut(NormalRays& rays, const ToolSweep& sweep, const std::uint32_t* tile, std::size_t count)
-      : rays_(rays), sweep_(sweep), tile_{tile, count, {}} {
+      : rays_(rays), sweep_(sweep), tile_{tile, count, {}, 0, {}} {
     for (std::size_t i = 0; i < count; i += kBundleRays)
-      bundles_.push_back({tile + i, std::min(kBundleRays, count - i), {}});
+      bundles_.push_back({tile + i, std::min(kBundleRays, count - i), {}, 0, {}});
   }
 
   void run(const Context& context) {
@@ -82,8 +84,7 @@ class TileCut {
   std::uint32_t pieces_near(const Bundle& bundle, std::uint32_t stroke) const {
     const std::uint32_t pieces = sweep_.pieces_near(stroke, bundle.box);
     const bool clear =
-        (pieces & 1) && sweep_.ring_clear_below(
-                            stroke, rays_.rays[bundle.middle()], bundle.top, bundle.radius, bundle.spread);
+        (pieces & 1) && sweep_.ring_clear_below(stroke, rays_.rays[bundle.middle()], bundle.top, bundle.near);
     return clear ? pieces & ~std::uint32_t(1) : pieces;
   }
 

@@ -51,12 +51,16 @@ Spans swept_spans(const ConeShape& cone, const Stroke& stroke, const Ray& ray, d
 double least_distance(const RingShape& ring, const Stroke& stroke, const Vec3& point);
 double least_distance(const ConeShape& cone, const Stroke& stroke, const Vec3& point);
 
-// May a bundle of rays be left out of account, whose points at the upper ends of their spans lie within
-// `radius` mm of `ray`'s at `hi`, and whose directions differ from its by no more than `spread` (sine)? True
-// only when the ring keeps clear of those points during the whole stroke and all lower points of the rays lie
-// farther from it.
+// Rays near one ray: how far the upper ends of their spans are from its (mm, in all and along it), and how much their
+// directions differ from its (length of the difference).
+struct Neighbourhood {
+  double radius = 0, along = 0, spread = 0;
+};
+
+// May all rays near `ray`, whose span ends at `hi`, be left out of account? True only when the ring keeps clear of the
+// upper ends of their spans during the whole stroke and all lower points of the rays lie farther from it.
 bool clear_below(
-    const RingShape& ring, const Stroke& stroke, const Ray& ray, double hi, double radius, double spread);
+    const RingShape& ring, const Stroke& stroke, const Ray& ray, double hi, const Neighbourhood& near);
 
 inline constexpr double kRayEpsilon = 1e-6;  // mm along a ray
 

@@ -31,8 +31,8 @@ class ToolSweep {
   double distance(std::uint32_t stroke, const Vec3& point) const;
 
   // swept_piece.h: clear_below of the ring.
-  bool ring_clear_below(std::uint32_t stroke, const Ray& ray, double hi, double radius, double spread) const {
-    return clear_below(ring_, strokes_[stroke], ray, hi, radius, spread);
+  bool ring_clear_below(std::uint32_t stroke, const Ray& ray, double hi, const Neighbourhood& near) const {
+    return clear_below(ring_, strokes_[stroke], ray, hi, near);
   }
 
   // Calls visit(from, to) for the parts of lo <= t <= hi that the stroke sweeps, piece by piece: they may
