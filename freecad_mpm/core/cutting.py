@@ -121,8 +121,8 @@ class Cut:
         return Worst(self._extreme(int(np.argmin(values))), self._extreme(int(np.argmax(values))))
 
     def heights(self, points: Floats, directions: Floats) -> tuple[Floats, Integers]:
-        """Deviation (N,) along `directions` (N, 3) at any `points` (N, 3) of the true surface (part frame), and the moves
-        (N,) that cut there: exact, whatever the resolution."""
+        """Deviation (N,) along `directions` (N, 3) at any `points` (N, 3) of the true surface (part frame), and the
+        moves (N,) that cut there: exact, whatever the resolution."""
         frame = self.scene.frame
         return cut_rays(
             self.sweep,
@@ -165,8 +165,8 @@ def cut(
     path:          the moves (part frame); all but rapids cut, with ring, bottom, flutes, shank and holder. Between two
                    rows the tip goes straight and the axis along a great circle.
     resolution_mm: distance of the dexels and of the points of the deviation; the values themselves do not depend on it.
-    box:           lo, hi (set-up frame) of the stock; default: the faces' box, and some base below it. A small box with a
-                   small resolution looks closely at one place: points outside of it are left out.
+    box:           lo, hi (set-up frame) of the stock; default: the faces' box, and some base below it. A small box with
+                   a small resolution looks closely at one place: points outside of it are left out.
     with_stock:    cut the block too, for `Cut.mesh`; False measures the deviation only, in about a third of the time.
     on_progress:   called in this thread as on_progress(stage, fraction 0..1).
     cancel:        a threading.Event or a function; when it is set or true, Cancelled is raised within 0.1 s.
@@ -224,8 +224,8 @@ def tool_sweep(scene: Scene, path: Moves) -> Any:
 def cut_rays(
     sweep: Any, points: Floats, directions: Floats, stock: Box, below_mm: float, context: Any
 ) -> tuple[Floats, Integers]:
-    """Heights (N,) and moves (N,) on rays from `points` along `directions` (N, 3) (set-up frame) that material fills up to
-    the top of the stock; beside the stock's box it goes on for `below_mm`, so that a border has its scallops.
+    """Heights (N,) and moves (N,) on rays from `points` along `directions` (N, 3) (set-up frame) that material fills up
+    to the top of the stock; beside the stock's box it goes on for `below_mm`, so that a border has its scallops.
     """
     aside = np.array([below_mm, below_mm, 0.0])
     full = _way_out(points, directions, Box(stock.lo - aside, stock.hi + aside))

@@ -30,8 +30,8 @@ class ProgramMoves:
 
 
 def read_program(path: str, machine: str, post: str | None = None) -> ProgramMoves:
-    """The moves of a program's file: forward kinematics of `machine`, rotary axes turning evenly within a block. Moves to
-    places that the program gives in the machine's own frame only are left out, and the next one counts as a rapid.
+    """The moves of a program's file: forward kinematics of `machine`, rotary axes turning evenly within a block. Moves
+    to places that the program gives in the machine's own frame only are left out, and the next one counts as a rapid.
 
     post: whose dialect it is; None: the one it looks like. Raises InputError for files and names that there are not, and
     for a program without a move."""

@@ -1,4 +1,4 @@
-"""The thesis' tables 2 and 3 (M. Singh, Waterloo 2020, chapter 5): its deviations beside what removal finds for our paths.
+"""The thesis' tables 2 and 3 (M. Singh, Waterloo 2020, chapter 5): its deviations beside those of our paths.
 
 Its surfaces, tool and footprint; the section at Y = 27 mm. Where its print can be read in two ways both are computed:
 

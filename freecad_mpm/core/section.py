@@ -60,8 +60,9 @@ class Section:
 
 
 def section(cut: Cut, origin: Sequence[float], normal: Sequence[float], spacing_mm: float) -> Section:
-    """The section of `cut` by the plane through `origin` square to `normal` (part frame), points at most `spacing_mm` apart
-    along the surface. Raises ValueError when the plane misses the faces or is square to the set-up's z."""
+    """The section of `cut` by the plane through `origin` square to `normal` (part frame), points at most `spacing_mm`
+    apart along the surface. Raises ValueError when the plane misses the faces or is square to the set-up's z.
+    """
     frame = _plane_frame(cut, origin, normal)
     points, normals = _curve(cut, frame, spacing_mm)
     deviation, move = cut.heights(points, normals)
@@ -70,8 +71,8 @@ def section(cut: Cut, origin: Sequence[float], normal: Sequence[float], spacing_
 
 
 def probed(cut: Cut, of: Section, radius_mm: float) -> Floats:
-    """(N,) mm: the deviation that a measuring machine finds at the points of a section, whose ball of `radius_mm` comes down
-    along the normal of the true surface and touches the machined one; the ball's radius is taken off. It rests on the
+    """(N,) mm: the deviation that a measuring machine finds at the points of a section, whose ball of `radius_mm` comes
+    down along the normal of the true surface and touches the machined one; the ball's radius is taken off. It rests on the
     highest places within its reach, so narrow grooves come out too high and gouges too shallow.
     """
     spacing = max(2 * radius_mm / PROBE_LINES, 0.0)

@@ -79,8 +79,8 @@ def test_scallops_on_an_inclined_plane_have_their_closed_form(slope: float) -> N
 
 
 def test_scallops_in_a_spherical_pocket_have_their_closed_form() -> None:
-    """Passes x = 0, 2, ... of a ball in a bowl of radius 40: in the plane y = 0 the cusp between two lies on the bisector
-    of the ball's centres, which lie on a circle of radius 40 - 5 round the bowl's centre."""
+    """Passes x = 0, 2, ... of a ball in a bowl of radius 40: in the plane y = 0 the cusp between two lies on the
+    bisector of the ball's centres, which lie on a circle of radius 40 - 5 round the bowl's centre."""
     bowl, step = 40.0, 2.0
     reach = bowl - BALL_MM
     rows = []

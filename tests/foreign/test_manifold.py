@@ -68,8 +68,8 @@ def foreign_heights(block, segments, plan_points):
 
 
 def top_of(corners, point):
-    """Where material that begins at the bottom ends over a point of the plan: the lowest place of triangles (T, 3, 3) that
-    face up. A leaning tool leaves a roof above it."""
+    """Where material that begins at the bottom ends over a point of the plan: the lowest place of triangles (T, 3, 3)
+    that face up. A leaning tool leaves a roof above it."""
     a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
     area = cross(b - a, c - a)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):

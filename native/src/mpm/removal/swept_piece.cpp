@@ -332,7 +332,8 @@ bool clear_below(
     const RingShape& ring, const Stroke& stroke, const Ray& ray, double hi, const Neighbourhood& near) {
   const Vec3 u = ray.at(hi) - stroke.middle.center;
   const double z = u.dot(stroke.middle.axis), rise = ray.direction.dot(stroke.middle.axis);
-  const double lever = u.norm() + stroke.length, half = 0.5 * stroke.motion(lever), margin = near.radius + half;
+  const double lever = u.norm() + stroke.length, half = 0.5 * stroke.motion(lever),
+               margin = near.radius + half;
   const double c = rise - near.spread - 0.5 * stroke.angle;
   if (z >= -margin || c <= 0) return false;
   const double r = std::sqrt(std::max(u.squaredNorm() - z * z, 0.0)), rho = std::abs(r - ring.major);
@@ -344,7 +345,8 @@ bool clear_below(
   // Of a function that is convex in place and time the tangent is a lower bound.
   const Reading middle = read_shape(ring, ray.at(hi), ray.direction, stroke.middle);
   const double sideways = std::sqrt(std::max(1 - middle.slope * middle.slope, 0.0));
-  const double tangent = distance - 0.5 * std::abs(middle.rate) - sideways * near.radius - std::abs(middle.slope) * near.along;
+  const double tangent =
+      distance - 0.5 * std::abs(middle.rate) - sideways * near.radius - std::abs(middle.slope) * near.along;
   return tangent - 0.5 * concavity(ring, margin, r - margin) - stroke.angle * stroke.angle * lever / 8 > 0;
 }
 
