@@ -72,8 +72,8 @@ def section(cut: Cut, origin: Sequence[float], normal: Sequence[float], spacing_
 
 def probed(cut: Cut, of: Section, radius_mm: float) -> Floats:
     """(N,) mm: the deviation that a measuring machine finds at the points of a section, whose ball of `radius_mm` comes
-    down along the normal of the true surface and touches the machined one; the ball's radius is taken off. It rests on the
-    highest places within its reach, so narrow grooves come out too high and gouges too shallow.
+    down along the normal of the true surface and touches the machined one; the ball's radius is taken off. It rests
+    on the highest places within its reach, so narrow grooves come out too high and gouges too shallow.
     """
     spacing = max(2 * radius_mm / PROBE_LINES, 0.0)
     offsets = spacing * np.arange(-PROBE_LINES / 2, PROBE_LINES / 2 + 1)
