@@ -142,6 +142,14 @@ def make_parser() -> Parser:
     )
     _add_threads(cut)
 
+    picture = commands.add_parser("picture", help="draw tool and machine at chosen positions of a job's path")
+    picture.add_argument("job", metavar="JOB.toml")
+    picture.add_argument(
+        "--position", metavar="N", nargs="+", type=_position, required=True, help="in machining order, from 1"
+    )
+    picture.add_argument("--out", metavar="DIR", default="out", help="folder for the pictures; default: out")
+    _add_threads(picture)
+
     bench = commands.add_parser("bench", help="compare the methods and write bench.json")
     bench.add_argument(
         "--surfaces", nargs="+", metavar="NAME", help="shipped examples or job files; default: thesis"
@@ -192,6 +200,12 @@ def _positive(text: str) -> float:
     if not 0 < value < math.inf:
         raise argparse.ArgumentTypeError(f"must be a positive number, got '{text}'")
     return value
+
+
+def _position(text: str) -> int:
+    if not text.isdecimal() or int(text) == 0:
+        raise argparse.ArgumentTypeError(f"must be a whole number from 1, got '{text}'")
+    return int(text)
 
 
 def _threads(text: str) -> int:

@@ -17,6 +17,7 @@ from . import (
     markers,
     output,
     planning,
+    playback_picture,
     published,
     report,
     results,
@@ -88,6 +89,17 @@ def cut(arguments: Namespace, progress: ProgressLine) -> int:
     print(text, end="")
     _write(arguments.out, files)
     return GOOD if good else NOT_GOOD
+
+
+def picture(arguments: Namespace, progress: ProgressLine) -> int:
+    output.check_folder(arguments.out)
+    spec = job.load(arguments.job)
+    computed = planning.plan(spec, on_progress=progress, threads=arguments.threads)
+    stages = Stages(progress, threads=arguments.threads)
+    files = stages.run("pictures", playback_picture.of_plan, computed, arguments.position)
+    progress.clear()
+    _write(arguments.out, files)
+    return GOOD
 
 
 def bench(arguments: Namespace, progress: ProgressLine) -> int:

@@ -57,7 +57,7 @@ def program_text(ops: Sequence[Any], post: str, arguments: str = "") -> ProgramT
     if not ours:
         raise InputError("there is no active Multi-Point Finish operation to write a program for")
     for op in ops:
-        _check_ready(op)
+        check_ready(op)
         _check_machine(ours[0], op)
     job = _job(ours[0], post, parse(arguments))
     place = shop.find_shop(job)
@@ -70,7 +70,8 @@ def program_text(ops: Sequence[Any], post: str, arguments: str = "") -> ProgramT
     return ProgramText(text, job.post.program_name + place.post.file_ending, warnings)
 
 
-def _check_ready(op: Any) -> None:
+def check_ready(op: Any) -> None:
+    """Raise InputError unless the operation has an up-to-date path and a tool controller that can run it."""
     if is_operation(op) and (op.Problem or not op.MoveStatus):
         raise InputError(f"{op.Label}: there is no up-to-date path: {op.Problem or 'recompute it first'}")
     if op.ToolController.HorizFeed.Value <= 0 or op.ToolController.VertFeed.Value <= 0:
@@ -137,6 +138,11 @@ def _findings(text: str, job: Job, place: shop.Shop, parts: Sequence[_Part]) -> 
     tip, axis = (np.concatenate([getattr(part.path, name) for part in parts]) for name in ("tip", "axis"))
     _, checks = shop.read_back(text, job, place.machine, tip, axis, place.post.dialect)
     return shop.told(checks.findings)
+
+
+def path_of(ops: Sequence[Any]) -> Path:
+    """The stored moves of our operations as the core's path, in their order."""
+    return _path(ops)[0]
 
 
 def _path(ops: Sequence[Any]) -> tuple[Path, np.ndarray]:

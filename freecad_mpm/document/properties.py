@@ -131,6 +131,14 @@ PROPERTIES = (
         [],
         mode=HIDDEN,
     ),  # fmt: skip
+    Property(
+        "PositionClearance",
+        "FloatList",
+        "Stored",
+        "Least distance from the cutter to a face at each position of the path, mm",
+        [],
+        mode=HIDDEN,
+    ),  # fmt: skip
     Property("StatusNames", "StringList", "Stored", "The names MoveStatus refers to", [], mode=HIDDEN),
     Property(
         "FirstContacts",

@@ -23,13 +23,22 @@ def store(obj: Any, plan: Any, report: str) -> None:
     obj.Verdict, obj.Good = plan.report["verdict"]["line"], plan.report["verdict"]["good"]
     obj.StatusNames = list(counts)
     obj.MoveStatus = _move_status(plan, list(counts))
+    visited = plan.path.position[plan.path.position >= 0]
+    obj.PositionClearance = plan.clearance[visited, 1].round(CLEARANCE_DECIMALS).tolist()
     obj.FirstContacts, obj.SecondContacts = (_vectors(plan.contacts[:, which]) for which in (0, 1))
 
 
 def clear(obj: Any) -> None:
     """Take back everything `store` gave."""
     obj.Positions, obj.WorstClearance, obj.Report, obj.Verdict, obj.Good = 0, 0.0, "", "", False
-    for name in ("Statuses", "StatusNames", "MoveStatus", "FirstContacts", "SecondContacts"):
+    for name in (
+        "Statuses",
+        "StatusNames",
+        "MoveStatus",
+        "PositionClearance",
+        "FirstContacts",
+        "SecondContacts",
+    ):
         setattr(obj, name, [])
 
 

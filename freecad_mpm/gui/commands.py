@@ -74,7 +74,31 @@ class WriteProgramCommand:
             report(error)
 
 
-COMMANDS = (FinishCommand, WriteProgramCommand)
+class PlaybackCommand:
+    """The tool and the machine along the operation's path."""
+
+    name = "MPM_Playback"
+
+    def GetResources(self) -> dict[str, str]:
+        return {
+            "Pixmap": icons.path("playback"),
+            "MenuText": "Playback",
+            "ToolTip": "Move the tool and the machine along the path of the selected Multi-Point Finish operation",
+        }
+
+    def IsActive(self) -> bool:
+        return FreeCAD.ActiveDocument is not None
+
+    def Activated(self) -> None:
+        from .playback_panel import open_panel
+
+        try:
+            open_panel(_operation())
+        except InputError as error:
+            report(error)
+
+
+COMMANDS = (FinishCommand, PlaybackCommand, WriteProgramCommand)
 
 
 def register() -> list[str]:

@@ -42,14 +42,14 @@ class ToolpathNodes:
     """`root` holds everything; `show` fills it. Nothing in it can be picked, so that faces under it can."""
 
     def __init__(self) -> None:
-        self.cuts = _Lines(CUT_WIDTH)
-        self.links = _Lines(LINK_WIDTH)
-        self.axes = _Lines(AXIS_WIDTH)
+        self.cuts = Lines(CUT_WIDTH)
+        self.links = Lines(LINK_WIDTH)
+        self.axes = Lines(AXIS_WIDTH)
         self.first = _Points(FIRST_CONTACT_COLOR)
         self.second = _Points(SECOND_CONTACT_COLOR)
         self.root = coin.SoSeparator()
-        self.root.addChild(_unpickable())
-        self.root.addChild(_unlit())
+        self.root.addChild(unpickable())
+        self.root.addChild(unlit())
         for part in (self.links, self.axes, self.cuts, self.first, self.second):
             self.root.addChild(part.root)
 
@@ -62,7 +62,7 @@ class ToolpathNodes:
         self.second.set(second)
 
 
-class _Lines:
+class Lines:
     """Polylines with a colour per vertex."""
 
     def __init__(self, width: float) -> None:
@@ -145,13 +145,13 @@ def _group(*nodes: Any) -> Any:
     return separator
 
 
-def _unpickable() -> Any:
+def unpickable() -> Any:
     node = coin.SoPickStyle()
     node.style = coin.SoPickStyle.UNPICKABLE
     return node
 
 
-def _unlit() -> Any:
+def unlit() -> Any:
     """Lines have no normals: lit, they would be black."""
     node = coin.SoLightModel()
     node.model = coin.SoLightModel.BASE_COLOR

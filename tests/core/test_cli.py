@@ -316,7 +316,7 @@ def test_cut_measures_a_plan_and_its_files(job_file: Path, tmp_path: Path) -> No
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["--resolution-mm", "0"], "--resolution-mm: must be a positive number of mm"),
+        (["--resolution-mm", "0"], "--resolution-mm: must be a positive number"),
         (["--section", "z=3"], "--section: must be x=… or y=…"),
         (["--mesh", "a.3mf"], "a.3mf: a mesh file must end in one of"),
         (["--resolution-mm", "0.0001"], "gives more than"),
@@ -326,3 +326,26 @@ def test_cut_says_what_is_wrong(words: list[str], said: str, job_file: Path, tmp
     status, out, error = run("cut", job_file, "--out", tmp_path / "out", *words)
     assert (status, out) == (2, "") and said in error and error.count("\n") == 1
     assert not (tmp_path / "out").exists()
+
+
+def test_picture_draws_chosen_positions(job_file: Path, tmp_path: Path) -> None:
+    out = tmp_path / "pictures"
+    status, text, error = run("picture", job_file, "--position", 1, 12, "--out", out)
+    assert (status, error) == (0, "")
+    assert sorted(path.name for path in out.iterdir()) == ["position_000001.png", "position_000012.png"]
+    assert all((out / name).read_bytes().startswith(b"\x89PNG") and name in text for name in os.listdir(out))
+
+
+@pytest.mark.parametrize(
+    ("number", "message"),
+    [
+        (0, "argument --position: must be a whole number from 1, got '0'"),
+        (29, "position 29: must be from 1 to 28"),
+    ],
+)
+def test_picture_of_a_position_that_is_not_there(
+    job_file: Path, tmp_path: Path, number: int, message: str
+) -> None:
+    status, text, error = run("picture", job_file, "--position", number, "--out", tmp_path / "pictures")
+    assert (status, text) == (2, "") and message in error and error.count("\n") == 1
+    assert not (tmp_path / "pictures").exists()
