@@ -24,11 +24,11 @@ from .tools import ToolSpec
 Floats = NDArray[np.float64]
 
 WIDTH_PX, HEIGHT_PX, DPI = 1600, 800, 100
-QUAD_BUDGET = 20_000
+QUAD_BUDGET = 12_000
 ELEVATION_DEG, AZIMUTH_DEG = 18.0, -62.0
 LAMP = np.array([-0.5, -0.62, 0.6])  # from the scene
 AMBIENT = 0.55
-# Facets longer than this part of the tool are cut up: what hides what is decided by their middles.
+# Facets longer than this part of their body are cut up: what hides what is decided by their middles.
 FACET_LENGTH = 0.06
 
 
@@ -36,21 +36,22 @@ def of_plan(plan: Plan, numbers: Sequence[int]) -> dict[str, bytes | str]:
     """File name -> PNG of the positions with these numbers, in machining order from 1.
 
     Raises InputError for a number that no position has."""
-    played = playback.of_plan(plan)
     faces = [face.transformed(plan.scene.frame) for face in (*plan.scene.machined, *plan.scene.check)]
-    return {file_name(number): of_position(played, number, faces, plan.job.tool) for number in numbers}
+    return of_positions(playback.of_plan(plan), numbers, faces, plan.job.tool)
 
 
-def file_name(number: int) -> str:
-    return f"position_{number:06d}.png"
-
-
-def of_position(played: Playback, number: int, faces: Sequence[FaceArrays], tool: ToolSpec) -> bytes:
-    """As `render`, by the position's number in machining order from 1. Raises InputError when there is none."""
+def of_positions(
+    played: Playback, numbers: Sequence[int], faces: Sequence[FaceArrays], tool: ToolSpec
+) -> dict[str, bytes | str]:
+    """As `of_plan`, with the part's faces in the set-up frame."""
     count = len(played.visited.move)
-    if not 1 <= number <= count:
-        raise InputError(f"position {number}: must be from 1 to {count}")
-    return render(played, played.at_position(number - 1), faces, tool)
+    for number in numbers:
+        if not 1 <= number <= count:
+            raise InputError(f"position {number}: must be from 1 to {count}")
+    return {
+        f"position_{number:06d}.png": render(played, played.at_position(number - 1), faces, tool)
+        for number in numbers
+    }
 
 
 def render(played: Playback, place: float, faces: Sequence[FaceArrays], tool: ToolSpec) -> bytes:
@@ -82,10 +83,8 @@ def _part(patches: Sequence[Floats], matrix: Floats) -> list[tuple[Floats, Colou
 
 def _tool(tool: ToolSpec, bodies: Mapping[str, Floats]) -> list[tuple[Floats, Colour]]:
     matrix = bodies[machine_motion.TOOL]
-    step = FACET_LENGTH * tool_solid.length_mm(tool)
     return [
-        (_moved(_subdivided(mesh.corners, step), matrix), TOOL_COLOURS[name])
-        for name, mesh in tool_solid.meshes(tool).items()
+        (_moved(_cut_up(mesh), matrix), TOOL_COLOURS[name]) for name, mesh in tool_solid.meshes(tool).items()
     ]
 
 
@@ -93,9 +92,8 @@ def _machine(
     played: Playback, box: tuple[Floats, Floats], tool: ToolSpec, bodies: Mapping[str, Floats]
 ) -> list[tuple[Floats, Colour]]:
     tables = table_letters(played.machine)
-    step = FACET_LENGTH * tool_solid.length_mm(tool)
     return [
-        (_moved(_subdivided(mesh.corners, step), bodies[name]), colour_of(name, tables))
+        (_moved(_cut_up(mesh), bodies[name]), colour_of(name, tables))
         for name, mesh in machine_bodies.sketch(played.machine, box, tool).items()
     ]
 
@@ -104,12 +102,13 @@ def _moved(corners: Floats, matrix: Floats) -> Floats:
     return np.asarray(corners @ matrix[:3, :3].T + matrix[:3, 3])
 
 
-def _subdivided(corners: Floats, step: float) -> Floats:
-    """Triangles (T, 3, 3) halved at their longest edges until none is longer than `step`."""
-    done = []
+def _cut_up(mesh: tool_solid.Mesh) -> Floats:
+    """The mesh's triangles (T, 3, 3), halved at their longest edges until none is long."""
+    longest = FACET_LENGTH * float(np.linalg.norm(np.ptp(mesh.points, axis=0)))
+    corners, done = mesh.corners, []
     while len(corners):
         edges = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2)
-        is_long = edges.max(axis=1) > step
+        is_long = edges.max(axis=1) > longest
         done.append(corners[~is_long])
         first = edges[is_long].argmax(axis=1)  # the longest edge runs from this corner to the next
         a, b, c = (corners[is_long][np.arange(len(first)), (first + i) % 3] for i in range(3))

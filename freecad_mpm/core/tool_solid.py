@@ -53,7 +53,7 @@ def outlines(tool: ToolSpec) -> list[Outline]:
         if segments:
             pieces.append(Outline(part, _piece(pieces[-1].points[-1], _stacked(segments, height))))
             height += sum(one.length_mm for one in segments)
-    lid = _piece(pieces[-1].points[0], [*map(tuple, pieces[-1].points[1:]), (0.0, height)])
+    lid = _piece(pieces[-1].points[0], [*pieces[-1].points[1:], np.array((0.0, height))])
     return [*pieces[:-1], Outline(pieces[-1].part, lid)]
 
 
@@ -112,7 +112,7 @@ def _stacked(segments: Sequence[Segment], height: float) -> list[tuple[float, fl
     return corners
 
 
-def _piece(start: Floats, rest: Sequence[tuple[float, ...]]) -> Floats:
+def _piece(start: Floats, rest: Sequence[Sequence[float] | Floats]) -> Floats:
     """The polyline without points that repeat the one before."""
-    points = np.array([tuple(start), *rest])
+    points = np.array([start, *rest])
     return points[np.append(True, (np.diff(points, axis=0) != 0).any(axis=1))]

@@ -11,11 +11,13 @@ def run_here(call: Callable[..., Any]) -> Any:
     return call(on_progress=None, cancel=None)
 
 
-def show_nothing(op: Any) -> None:
-    """What becomes of a new operation's view where there is none."""
+def show_nothing(obj: Any) -> None:
+    """What becomes of a new object's view where there is none."""
 
 
 # How a computation runs; the GUI's shows progress and can be cancelled.
 run: Callable[[Callable[..., Any]], Any] = run_here
 # Called with every new operation; the GUI's gives it a view provider.
 present: Callable[[Any], None] = show_nothing
+# Called with every new result of a verification.
+present_result: Callable[[Any], None] = show_nothing

@@ -63,13 +63,7 @@ def write_pictures(op: Any, numbers: Sequence[int], folder: str) -> list[str]:
     from ..core import playback_picture
 
     shown = played(op)
-    faces = part_faces(op)
-    files: dict[str, bytes | str] = {
-        playback_picture.file_name(number): playback_picture.of_position(
-            shown.playback, number, faces, shown.tool
-        )
-        for number in numbers
-    }
+    files = playback_picture.of_positions(shown.playback, numbers, part_faces(op), shown.tool)
     return [str(path) for path in write_together(folder, files)]
 
 

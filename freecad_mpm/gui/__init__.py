@@ -12,6 +12,7 @@ def install() -> None:
     """Make operations show themselves and their progress, also those that a script or macro makes."""
     hooks.run = _run
     hooks.present = _present
+    hooks.present_result = _present_result
 
 
 def _run(call: Callable[..., Any]) -> Any:
@@ -24,3 +25,9 @@ def _present(op: Any) -> None:
     from .view_provider import show
 
     show(op)
+
+
+def _present_result(result: Any) -> None:
+    from .verification_view import show
+
+    show(result)

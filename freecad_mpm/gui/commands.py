@@ -98,7 +98,41 @@ class PlaybackCommand:
             report(error)
 
 
-COMMANDS = (FinishCommand, PlaybackCommand, WriteProgramCommand)
+class VerifyCommand:
+    """What the operation's path leaves of the stock, against the part."""
+
+    name = "MPM_Verify"
+
+    def GetResources(self) -> dict[str, str]:
+        return {
+            "Pixmap": icons.path("verify"),
+            "MenuText": "Verify",
+            "ToolTip": "Cut the selected Multi-Point Finish operation into stock and colour how far the part is met",
+        }
+
+    def IsActive(self) -> bool:
+        return FreeCAD.ActiveDocument is not None
+
+    def Activated(self) -> None:
+        from ..document.verification import verify
+        from . import panels
+        from .verification_panel import open_panel
+
+        doc = FreeCAD.ActiveDocument
+        doc.openTransaction("Verify")
+        try:
+            panels.check_none_is_open()
+            result = verify(_operation())
+        except Exception as error:
+            doc.abortTransaction()
+            if not isinstance(error, Cancelled):
+                report(error)
+            return
+        doc.commitTransaction()
+        open_panel(result)
+
+
+COMMANDS = (FinishCommand, PlaybackCommand, VerifyCommand, WriteProgramCommand)
 
 
 def register() -> list[str]:

@@ -12,6 +12,7 @@ from PySide import QtCore, QtGui
 from ..core.errors import InputError, one_line
 from ..core.playback import describe
 from ..document.playback import Played, played
+from . import panels
 from .playback_nodes import PlaybackNodes, Stage
 
 # Sixty times a second the timer asks; what the machine can draw is drawn.
@@ -41,8 +42,7 @@ class PlaybackPanel:
     # ------------------------------------------------------------------ what FreeCAD calls
 
     def getStandardButtons(self) -> int:
-        close = QtGui.QDialogButtonBox.Close
-        return int(getattr(close, "value", close))  # a number in PySide2, an enumeration in PySide6
+        return panels.only_close()
 
     def reject(self) -> bool:
         self.close()
@@ -267,8 +267,7 @@ class _Observer:
 
 def open_panel(op: Any) -> PlaybackPanel:
     """Show the panel. Raises InputError when it cannot be shown."""
-    if FreeCADGui.Control.activeDialog():
-        raise InputError("another task panel is open: close it first")
+    panels.check_none_is_open()
     panel = PlaybackPanel(op)
     FreeCADGui.Control.showDialog(panel)
     return panel

@@ -49,11 +49,10 @@ def test_clearances_of_an_older_document_are_unknown(op: Any) -> None:
     assert np.isnan(playback.visited(op).clearance_mm).all()
 
 
-def test_pictures_of_chosen_positions(op: Any, tmp_path: Path) -> None:
-    paths = playback.write_pictures(op, [1, 7], str(tmp_path))
-    assert [Path(path).name for path in paths] == ["position_000001.png", "position_000007.png"]
-    first, second = (Path(path).read_bytes() for path in paths)
-    assert first.startswith(b"\x89PNG") and second.startswith(b"\x89PNG") and first != second
+def test_a_picture_of_a_chosen_position(op: Any, tmp_path: Path) -> None:
+    paths = playback.write_pictures(op, [7], str(tmp_path))
+    assert [Path(path).name for path in paths] == ["position_000007.png"]
+    assert Path(paths[0]).read_bytes().startswith(b"\x89PNG")
 
 
 def test_a_position_that_is_not_there(op: Any, tmp_path: Path) -> None:

@@ -1,0 +1,240 @@
+"""Verify: an operation's path cut into stock, and the result kept in the document.
+
+The result is a record: it does not compute itself anew, but says when the path has changed since (`Outdated`). The class
+name is written into documents: never rename it."""
+
+from __future__ import annotations
+
+import hashlib
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path as FilePath
+from typing import TYPE_CHECKING, Any
+
+import FreeCAD
+import Mesh
+import numpy as np
+
+from ..core.output import write_atomically
+from . import compat, hooks, program
+from .computation import require_native
+from .job_spec import job_of
+from .model import model_faces
+from .properties import HIDDEN, READ_ONLY, Property
+
+if TYPE_CHECKING:  # needs the native module
+    from ..core.cutting import Cut
+    from ..core.model import Scene
+
+NAME, STOCK = "Verification", "MachinedStock"
+STOCK_LABEL = "Machined stock of {}"
+RESULT_LABEL = "Verification of {}"
+NO_MOVE = -1
+
+PROPERTIES = (
+    Property("Operation", "Link", "Verification", "The operation whose path was cut", mode=READ_ONLY),
+    Property("Stock", "Link", "Verification", "What the tool leaves of the stock", mode=READ_ONLY),
+    Property("Resolution", "Length", "Verification", "Distance of the points looked at", 0.0, mode=READ_ONLY),
+    Property(
+        "Outdated", "Bool", "Verification", "The path has changed since: verify again", False, mode=READ_ONLY
+    ),
+    Property(
+        "WorstGouge",
+        "Distance",
+        "Deviation",
+        "Least deviation from the faces along their normals; negative: cut in",
+        0.0,
+        mode=READ_ONLY,
+    ),
+    Property("WorstGougePoint", "Vector", "Deviation", "Where that is", mode=READ_ONLY),
+    Property("WorstGougeMove", "Integer", "Deviation", "The move that cut there; -1: none", mode=READ_ONLY),
+    Property(
+        "WorstRemainder", "Distance", "Deviation", "Most that remains above the faces", 0.0, mode=READ_ONLY
+    ),
+    Property("WorstRemainderPoint", "Vector", "Deviation", "Where that is", mode=READ_ONLY),
+    Property(
+        "WorstRemainderMove", "Integer", "Deviation", "The move that cut there last; -1: none", mode=READ_ONLY
+    ),
+    Property(
+        "Bands", "StringList", "Deviation", "What part of the faces deviates how much", [], mode=READ_ONLY
+    ),
+    Property("Tolerance", "Length", "Deviation", "How deep a cut of this path may be", 0.0, mode=READ_ONLY),
+    Property("Good", "Bool", "Deviation", "Nothing is cut deeper than that", False, mode=READ_ONLY),
+    Property("Data", "FileIncluded", "Stored", "Points, deviations, moves, triangles", mode=HIDDEN),
+    Property("PathMark", "String", "Stored", "Tells one path from another", "", mode=HIDDEN),
+)
+
+
+@dataclass(frozen=True)
+class Deviation:
+    """The deviation that a result holds; global frame, mm. Single precision, as it is for looking at."""
+
+    points: np.ndarray  # (N, 3), on the faces to machine
+    deviation_mm: np.ndarray  # (N,), along the normal: > 0 remains, < 0 is cut in
+    move: np.ndarray  # (N,), move of the path that cut there last, -1: none
+    triangles: np.ndarray  # (T, 3) of points
+
+    def nearest(self, point: Any) -> int:
+        """The row nearest to a point (3,)."""
+        return int(np.argmin(((self.points - np.asarray(tuple(point))) ** 2).sum(axis=1)))
+
+
+class Verification(compat.Stateless):
+    """Proxy of the result."""
+
+    def __init__(self, obj: Any) -> None:
+        obj.Proxy = self
+        add_missing(obj)
+
+    def onDocumentRestored(self, obj: Any) -> None:
+        add_missing(obj)
+
+    def execute(self, obj: Any) -> None:
+        """Called when the operation has changed."""
+        obj.Outdated = obj.Operation is None or obj.PathMark != path_mark(obj.Operation)
+
+
+def add_missing(obj: Any) -> None:
+    for one in PROPERTIES:
+        if not hasattr(obj, one.name):
+            obj.addProperty(f"App::Property{one.type}", one.name, one.group, one.doc)
+            if one.default is not None:
+                setattr(obj, one.name, one.default)
+        obj.setEditorMode(one.name, one.mode)
+
+
+def verify(op: Any, resolution_mm: float | None = None) -> Any:
+    """Cut the operation's path into stock and return the result object: the operation's own, made when it has none.
+
+    resolution_mm: distance of the points looked at; default: 300 along the part's longer side. The values themselves
+    do not depend on it.
+
+    Shows progress where there is a window. Raises InputError: no up-to-date path; Cancelled: nothing is changed.
+    """
+    require_native()
+    from ..core import cutting
+
+    program.check_ready(op)
+    scene = scene_of(op)
+    resolution = resolution_mm or cutting.default_resolution_mm(scene)
+    path = program.path_of([op])
+    cut = hooks.run(lambda **watching: cutting.cut(scene, path, resolution, **watching))
+    result = result_of(op) or _make(op)
+    _fill(result, op, cut)
+    result.Document.recompute([result, result.Stock])
+    return result
+
+
+def result_of(op: Any) -> Any | None:
+    """The operation's result, or None."""
+    return next((obj for obj in op.Document.Objects if is_result(obj) and obj.Operation == op), None)
+
+
+def is_result(obj: Any) -> bool:
+    return isinstance(getattr(obj, "Proxy", None), Verification)
+
+
+def scene_of(op: Any) -> Scene:
+    """The operation's faces and tool; part and set-up frame are FreeCAD's global frame."""
+    from ..core.model import build_scene
+
+    part = model_faces(compat.utils.findParentJob(op), op.Base, op.GougeTolerance.Value)
+    return build_scene(job_of(op, part.machined, part.check), part.faces)
+
+
+def allowed_depth_mm(op: Any) -> float:
+    """How deep the operation's tolerances let a cut be."""
+    from ..core import planning, verdict
+
+    job = job_of(op, (), ())
+    return verdict.cut_depth_mm(job.tolerance, planning.guarantee_of(job))
+
+
+def deviation_of(result: Any) -> Deviation:
+    """What is coloured in the 3D view."""
+    with np.load(result.Data) as data:
+        return Deviation(data["points"], data["deviation_mm"], data["move"], data["triangles"])
+
+
+def position_at(result: Any, move: int) -> int:
+    """Number in machining order, from 0, of the position in which a move ends, or of the next one after it; NO_MOVE when
+    there is none."""
+    from .playback import visited
+
+    moves = visited(result.Operation).move
+    number = int(np.searchsorted(moves, move))
+    return number if 0 <= move and number < len(moves) else NO_MOVE
+
+
+def write_picture(result: Any, path: str) -> None:
+    """Write the deviation map as PNG, whole or not at all. Works without a window."""
+    from ..core import deviation_bands, deviation_picture
+
+    found = deviation_of(result)
+    png = deviation_picture.render(
+        found.points,
+        found.triangles,
+        found.deviation_mm,
+        found.move,
+        deviation_bands.bands(result.Tolerance.Value),
+        result.Label,
+    )
+    write_atomically(path, png)
+
+
+def path_mark(op: Any) -> str:
+    """The same for the same path, before and after saving."""
+    return hashlib.sha256(op.Path.toGCode().encode()).hexdigest()
+
+
+def _make(op: Any) -> Any:
+    stock = op.Document.addObject("Mesh::Feature", STOCK)
+    stock.Label = STOCK_LABEL.format(op.Label)
+    result = op.Document.addObject("App::FeaturePython", NAME)
+    Verification(result)
+    result.Label = RESULT_LABEL.format(op.Label)
+    result.Operation, result.Stock = op, stock
+    hooks.present_result(result)
+    return result
+
+
+def _fill(result: Any, op: Any, cut: Cut) -> None:
+    from ..core import deviation_bands
+
+    found, worst = cut.deviation, cut.worst()
+    tolerance = allowed_depth_mm(op)
+    bands = deviation_bands.bands(tolerance)
+    result.Resolution, result.Tolerance = cut.resolution_mm, tolerance
+    result.Good = worst.gouge.deviation_mm >= -tolerance
+    for name, extreme in (("WorstGouge", worst.gouge), ("WorstRemainder", worst.remainder)):
+        setattr(result, name, extreme.deviation_mm)
+        setattr(result, f"{name}Point", FreeCAD.Vector(*extreme.point.tolist()))
+        setattr(result, f"{name}Move", extreme.move)
+    result.Bands = deviation_bands.table(bands, bands.shares(found.deviation_mm, found.move))
+    result.PathMark, result.Outdated = path_mark(op), False
+    _store(result, found)
+    result.Stock.Mesh = _mesh(cut)
+
+
+def _store(result: Any, found: Any) -> None:
+    """FreeCAD copies the file into the document."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = FilePath(folder) / "deviation.npz"
+        np.savez_compressed(
+            file,
+            points=found.points.astype(np.float32),
+            deviation_mm=found.deviation_mm.astype(np.float32),
+            move=found.move.astype(np.int32),
+            triangles=found.triangles.astype(np.uint32),
+        )
+        result.Data = str(file)
+
+
+def _mesh(cut: Cut) -> Any:
+    """As FreeCAD's mesh, by way of a file: a list of facets would take minutes."""
+    from ..core import mesh_file
+
+    with tempfile.TemporaryDirectory() as folder:
+        file = FilePath(folder) / "stock.ply"
+        file.write_bytes(mesh_file.to_bytes(file.name, *cut.mesh()))
+        return Mesh.Mesh(str(file))

@@ -1,0 +1,168 @@
+"""The task panel of a verification: the worst places, the bands, and which position cut the spot that is clicked."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import FreeCADGui
+from pivy import coin
+from PySide import QtCore, QtGui
+
+from ..core import deviation_bands
+from ..core.errors import InputError
+from ..document import verification
+from ..document.playback import Played, played
+from . import panels
+from .playback_nodes import PlaybackNodes, Stage
+from .spot_node import SpotNode
+
+SWATCH_PX = 16
+HINT = "Click on a coloured spot in the 3D view."
+
+
+class VerificationPanel:
+    """Shown by FreeCADGui.Control.showDialog; `close` takes everything out of the view again."""
+
+    def __init__(self, result: Any) -> None:
+        self.result = result
+        self.form = VerificationForm(result)
+        self.position = verification.NO_MOVE  # number of the position that cut the spot, from 0
+        self._found = verification.deviation_of(result)
+        self._view = FreeCADGui.getDocument(result.Document.Name).ActiveView
+        self._callback = self._view.addEventCallbackPivy(
+            coin.SoMouseButtonEvent.getClassTypeId(), self._clicked
+        )
+        self._spot = SpotNode(self._view)
+        self._stage: Stage | None = None
+        self._played = None if result.Outdated else played(result.Operation)
+        self.form.gouge.clicked.connect(lambda: self.show_spot(result.WorstGougePoint))
+        self.form.remainder.clicked.connect(lambda: self.show_spot(result.WorstRemainderPoint))
+        self.form.play.clicked.connect(self.play_from_here)
+
+    # ------------------------------------------------------------------ what FreeCAD calls
+
+    def getStandardButtons(self) -> int:
+        return panels.only_close()
+
+    def reject(self) -> bool:
+        self.close()
+        FreeCADGui.Control.closeDialog()
+        return True
+
+    # ------------------------------------------------------------------ spots
+
+    def show_spot(self, point: Any) -> None:
+        """Mark the point of the deviation nearest to `point`, and put the tool at the position that cut it last."""
+        row = self._found.nearest(point)
+        at, move = self._found.points[row], int(self._found.move[row])
+        self._spot.show(at)
+        self.position = (
+            verification.NO_MOVE if self._played is None else verification.position_at(self.result, move)
+        )
+        self.form.show_spot(at, float(self._found.deviation_mm[row]), self._cut_by(move))
+        self.form.play.setEnabled(self.position != verification.NO_MOVE)
+        self._show_tool()
+
+    def play_from_here(self) -> None:
+        from .playback_panel import open_panel as open_playback
+
+        op, number = self.result.Operation, self.position
+        self.reject()
+        # FreeCAD takes the closed panel away only when this click is dealt with.
+        QtCore.QTimer.singleShot(0, lambda: open_playback(op).go_to_position(number))
+
+    def close(self) -> None:
+        """Calling it again changes nothing."""
+        if self._callback is not None:
+            self._view.removeEventCallbackPivy(coin.SoMouseButtonEvent.getClassTypeId(), self._callback)
+            self._callback = None
+            self._spot.clear()
+        if self._stage is not None:
+            self._stage.clear()
+            self._stage = None
+
+    # ------------------------------------------------------------------ inside
+
+    def _clicked(self, node: Any) -> None:
+        event = node.getEvent()
+        pressed = event.getState() == coin.SoButtonEvent.DOWN
+        if event.getButton() != coin.SoMouseButtonEvent.BUTTON1 or not pressed:
+            return
+        hit = self._view.getObjectInfo(tuple(event.getPosition().getValue()))
+        if hit is not None:
+            self.show_spot((hit["x"], hit["y"], hit["z"]))
+
+    def _cut_by(self, move: int) -> str:
+        if move == verification.NO_MOVE:
+            return "no move"
+        if self._played is None:
+            return f"move {move + 1} of the path as it was"
+        return f"move {move + 1}, position {self.position + 1} of {len(self._played.playback.visited.move)}"
+
+    def _show_tool(self) -> None:
+        if self._played is None or self.position == verification.NO_MOVE:
+            return
+        playback = self._played.playback
+        moment = playback.moment(playback.at_position(self.position))
+        self._nodes_in_view(self._played).place(playback.placements(moment, part_fixed=True))
+
+    def _nodes_in_view(self, shown: Played) -> PlaybackNodes:
+        if self._stage is None:
+            self._nodes = PlaybackNodes(shown)
+            self._nodes.show_machine(False)
+            self._stage = Stage(self._view, self.result.Operation, shown, self._nodes)
+        return self._nodes
+
+
+class VerificationForm(QtGui.QWidget):
+    """The widgets alone."""
+
+    def __init__(self, result: Any) -> None:
+        super().__init__()
+        self.setWindowTitle("Verification")
+        layout = QtGui.QFormLayout(self)
+        if result.Outdated:
+            layout.addRow(QtGui.QLabel("<b>The path has changed since: verify again.</b>"))
+        self.gouge = QtGui.QPushButton(deviation_bands.length(result.WorstGouge.Value))
+        self.remainder = QtGui.QPushButton(deviation_bands.length(result.WorstRemainder.Value))
+        layout.addRow("Least deviation", self.gouge)
+        layout.addRow("Most that remains", self.remainder)
+        layout.addRow("Resolution", QtGui.QLabel(f"{result.Resolution.Value:g} mm"))
+        self._add_bands(layout, result)
+        self._hint = QtGui.QLabel(HINT)
+        layout.addRow(self._hint)
+        self._spot = {name: QtGui.QLabel("–") for name in ("Deviation", "Point", "Cut last by")}
+        for name, label in self._spot.items():
+            layout.addRow(name, label)
+        self.play = QtGui.QPushButton("Play back from here")
+        self.play.setEnabled(False)
+        layout.addRow(self.play)
+
+    def show_spot(self, point: Any, deviation_mm: float, cut_by: str) -> None:
+        words = (deviation_bands.length(deviation_mm), ", ".join(f"{value:.3f}" for value in point), cut_by)
+        for label, text in zip(self._spot.values(), words):
+            label.setText(text)
+
+    def spot_words(self) -> dict[str, str]:
+        return {name: label.text() for name, label in self._spot.items()}
+
+    def _add_bands(self, layout: Any, result: Any) -> None:
+        bands = deviation_bands.bands(result.Tolerance.Value)
+        shares = dict(line.rsplit(": ", 1) for line in result.Bands)
+        for name, colour in zip(bands.names, bands.colours):
+            if name in shares:
+                swatch = QtGui.QPixmap(SWATCH_PX, SWATCH_PX)
+                swatch.fill(QtGui.QColor.fromRgbF(*colour))
+                picture = QtGui.QLabel()
+                picture.setPixmap(swatch)
+                layout.addRow(picture, QtGui.QLabel(f"{name}: {shares[name]}"))
+
+
+def open_panel(result: Any) -> VerificationPanel:
+    """Show the panel. Raises InputError when it cannot be shown."""
+    panels.check_none_is_open()
+    if not result.Data:
+        raise InputError(f"{result.Label}: holds no result; verify the operation again")
+    panel = VerificationPanel(result)
+    FreeCADGui.Control.showDialog(panel)
+    return panel
