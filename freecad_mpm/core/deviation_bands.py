@@ -16,7 +16,7 @@ Colour = tuple[float, float, float]
 LEAST_TOLERANCE_MM = 1e-3
 # Bands end at these multiples of the tolerance.
 GOUGES, REMAINDERS = (10.0, 1.0), (1.0, 5.0, 20.0, 100.0)
-# From deep gouges (reds) over what is within the tolerance (green) to much that remains (blues), and what no move cut.
+# From deep gouges (red) over what is within the tolerance (green) to much that remains (blues).
 COLOURS: tuple[Colour, ...] = (
     (0.50, 0.00, 0.13),
     (0.90, 0.33, 0.10),
@@ -26,8 +26,6 @@ COLOURS: tuple[Colour, ...] = (
     (0.20, 0.52, 0.76),
     (0.10, 0.25, 0.55),
 )
-NOT_CUT_COLOUR: Colour = (0.62, 0.62, 0.62)
-NOT_CUT = "not cut by any move"
 
 
 @dataclass(frozen=True)
@@ -36,25 +34,20 @@ class Bands:
 
     edges: Floats
 
-    def of(self, deviation_mm: Floats, move: Integers) -> Integers:
-        """The band (N,) of each deviation; the one after all others where no move cut."""
-        band = np.searchsorted(self.edges, deviation_mm, side="left")
-        return np.where(move < 0, len(COLOURS), band)
+    def of(self, deviation_mm: Floats) -> Integers:
+        """The band (N,) of each deviation."""
+        return np.searchsorted(self.edges, deviation_mm, side="left")
 
     @property
     def names(self) -> list[str]:
-        """What each band holds, from the deepest gouge on; the last: not cut."""
+        """What each band holds, from the deepest gouge on."""
         texts = [length(edge) for edge in self.edges]
         between = [f"{low} to {high}" for low, high in zip(texts, texts[1:])]
-        return [f"below {texts[0]}", *between, f"above {texts[-1]}", NOT_CUT]
+        return [f"below {texts[0]}", *between, f"above {texts[-1]}"]
 
-    @property
-    def colours(self) -> list[Colour]:
-        return [*COLOURS, NOT_CUT_COLOUR]
-
-    def shares(self, deviation_mm: Floats, move: Integers) -> list[float]:
+    def shares(self, deviation_mm: Floats) -> list[float]:
         """What part of the points each band holds."""
-        counts = np.bincount(self.of(deviation_mm, move), minlength=len(COLOURS) + 1)
+        counts = np.bincount(self.of(deviation_mm), minlength=len(COLOURS))
         return (counts / max(len(deviation_mm), 1)).tolist()
 
 

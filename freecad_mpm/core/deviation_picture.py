@@ -22,30 +22,29 @@ WIDTH_PX, HEIGHT_PX, DPI = 1400, 900, 100
 GOUGE_MARK, REMAINDER_MARK = "#7A0019", "#0B2A63"
 
 
-def render(
-    points: Floats, triangles: Integers, deviation_mm: Floats, move: Integers, bands: Bands, title: str
-) -> bytes:
+def render(points: Floats, triangles: Integers, deviation_mm: Floats, bands: Bands, title: str) -> bytes:
     """A PNG of 1400 x 900 pixels.
 
-    points (N, 3): set-up frame, seen from +z; triangles (T, 3) of them; deviation_mm, move (N,): as core.cutting gives
-    them. A triangle has the colour of its worst corner: a gouge anywhere before what remains."""
+    points (N, 3): set-up frame, seen from +z; triangles (T, 3) of them; deviation_mm (N,): along
+    the normal, + remains. A triangle has the colour of its worst corner: a gouge anywhere before what remains.
+    """
     figure = Figure(figsize=(WIDTH_PX / DPI, HEIGHT_PX / DPI), dpi=DPI, facecolor="white")
     FigureCanvasAgg(figure)
     figure.text(0.03, 0.955, title, fontsize=14, weight="bold")
     axes = figure.add_axes((0.06, 0.07, 0.62, 0.86))
-    band = bands.of(deviation_mm, move)
-    _fill(axes, points, triangles, band[triangles].min(axis=1), bands)
+    band = bands.of(deviation_mm)
+    _fill(axes, points, triangles, band[triangles].min(axis=1))
     _mark(axes, points, deviation_mm)
-    _key(figure, bands, bands.shares(deviation_mm, move))
+    _key(figure, bands, bands.shares(deviation_mm))
     png = io.BytesIO()
     figure.savefig(png, format="png", dpi=DPI)
     return png.getvalue()
 
 
-def _fill(axes: Any, points: Floats, triangles: Integers, band: Integers, bands: Bands) -> None:
+def _fill(axes: Any, points: Floats, triangles: Integers, band: Integers) -> None:
     height = points[triangles, 2].mean(axis=1)
     order = np.argsort(height, kind="stable")  # what lies higher covers what lies lower
-    colours = np.array(bands.colours)[band[order]]
+    colours = np.array(deviation_bands.COLOURS)[band[order]]
     corners = points[triangles[order], :2]
     axes.add_collection(PolyCollection(corners, facecolors=colours, edgecolors=colours, linewidths=0.3))
     axes.set_aspect("equal")
@@ -67,7 +66,7 @@ def _mark(axes: Any, points: Floats, deviation_mm: Floats) -> None:
 
 
 def _key(figure: Any, bands: Bands, shares: list[float]) -> None:
-    rows = zip(bands.names, bands.colours, shares)
+    rows = zip(bands.names, deviation_bands.COLOURS, shares)
     handles = [
         Patch(color=colour, label=f"{name}: {deviation_bands.share(part)}") for name, colour, part in rows
     ]

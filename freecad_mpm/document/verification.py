@@ -6,6 +6,7 @@ name is written into documents: never rename it."""
 from __future__ import annotations
 
 import hashlib
+import os
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path as FilePath
@@ -15,6 +16,7 @@ import FreeCAD
 import Mesh
 import numpy as np
 
+from ..core.errors import InputError
 from ..core.output import write_atomically
 from . import compat, hooks, program
 from .computation import require_native
@@ -30,6 +32,9 @@ NAME, STOCK = "Verification", "MachinedStock"
 STOCK_LABEL = "Machined stock of {}"
 RESULT_LABEL = "Verification of {}"
 NO_MOVE = -1
+# Of the computer's memory that a verification may take.
+MEMORY_SHARE = 0.7
+GIGABYTE = 1e9
 
 PROPERTIES = (
     Property("Operation", "Link", "Verification", "The operation whose path was cut", mode=READ_ONLY),
@@ -78,6 +83,19 @@ class Deviation:
         """The row nearest to a point (3,)."""
         return int(np.argmin(((self.points - np.asarray(tuple(point))) ** 2).sum(axis=1)))
 
+    def first_on_line(self, start: Any, end: Any, reach_mm: float) -> int | None:
+        """The row that the way from `start` to `end` (3,) meets first, passing it within `reach_mm`; None: it misses."""
+        start, end = np.asarray(tuple(start)), np.asarray(tuple(end))
+        direction = (end - start) / np.linalg.norm(end - start)
+        offset = self.points - start
+        along = offset @ direction
+        beside = np.linalg.norm(offset - np.outer(along, direction), axis=1)
+        rows = np.flatnonzero((beside <= reach_mm) & (along >= 0))
+        if not len(rows):
+            return None
+        first = rows[along[rows] <= along[rows].min() + 2 * reach_mm]  # one spot of the face
+        return int(first[np.argmin(beside[first])])
+
 
 class Verification(compat.Stateless):
     """Proxy of the result."""
@@ -117,12 +135,20 @@ def verify(op: Any, resolution_mm: float | None = None) -> Any:
     program.check_ready(op)
     scene = scene_of(op)
     resolution = resolution_mm or cutting.default_resolution_mm(scene)
+    _check_memory(cutting.memory_needed(scene, resolution), resolution)
     path = program.path_of([op])
     cut = hooks.run(lambda **watching: cutting.cut(scene, path, resolution, **watching))
     result = result_of(op) or _make(op)
     _fill(result, op, cut)
     result.Document.recompute([result, result.Stock])
     return result
+
+
+def _check_memory(needed: int, resolution_mm: float) -> None:
+    there_is = MEMORY_SHARE * os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    if needed > there_is:
+        sizes = f"{needed / GIGABYTE:.1f} GB, and at most {there_is / GIGABYTE:.1f} GB may be used"
+        raise InputError(f"Resolution: {resolution_mm:g} mm takes {sizes}; it must be coarser")
 
 
 def result_of(op: Any) -> Any | None:
@@ -175,7 +201,6 @@ def write_picture(result: Any, path: str) -> None:
         found.points,
         found.triangles,
         found.deviation_mm,
-        found.move,
         deviation_bands.bands(result.Tolerance.Value),
         result.Label,
     )
@@ -210,7 +235,7 @@ def _fill(result: Any, op: Any, cut: Cut) -> None:
         setattr(result, name, extreme.deviation_mm)
         setattr(result, f"{name}Point", FreeCAD.Vector(*extreme.point.tolist()))
         setattr(result, f"{name}Move", extreme.move)
-    result.Bands = deviation_bands.table(bands, bands.shares(found.deviation_mm, found.move))
+    result.Bands = deviation_bands.table(bands, bands.shares(found.deviation_mm))
     result.PathMark, result.Outdated = path_mark(op), False
     _store(result, found)
     result.Stock.Mesh = _mesh(cut)

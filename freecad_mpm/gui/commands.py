@@ -114,22 +114,12 @@ class VerifyCommand:
         return FreeCAD.ActiveDocument is not None
 
     def Activated(self) -> None:
-        from ..document.verification import verify
-        from . import panels
-        from .verification_panel import open_panel
+        from .verification_panel import run_and_show
 
-        doc = FreeCAD.ActiveDocument
-        doc.openTransaction("Verify")
         try:
-            panels.check_none_is_open()
-            result = verify(_operation())
-        except Exception as error:
-            doc.abortTransaction()
-            if not isinstance(error, Cancelled):
-                report(error)
-            return
-        doc.commitTransaction()
-        open_panel(result)
+            run_and_show(_operation())
+        except InputError as error:
+            report(error)
 
 
 COMMANDS = (FinishCommand, PlaybackCommand, VerifyCommand, WriteProgramCommand)

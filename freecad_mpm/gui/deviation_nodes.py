@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from pivy import coin
 
+from ..core import deviation_bands
 from ..core.deviation_bands import Bands
 from ..document.verification import Deviation
 from .toolpath_nodes import unlit, unpickable
@@ -36,6 +37,7 @@ class DeviationNodes:
             surface.addChild(node)
         self._legend = coin.SoSeparator()
         self.root = coin.SoSeparator()
+        self.root.addChild(unpickable())  # FreeCAD paints over what is selected
         self.root.addChild(surface)
         self.root.addChild(_outside_the_bounds(self._legend))
 
@@ -46,9 +48,9 @@ class DeviationNodes:
 
     def show(self, found: Deviation, bands: Bands) -> None:
         """Colour each triangle by its worst corner, a gouge before what remains."""
-        band = bands.of(found.deviation_mm, found.move)[found.triangles].min(axis=1)
+        band = bands.of(found.deviation_mm)[found.triangles].min(axis=1)
         index = np.column_stack((found.triangles, np.full(len(band), coin.SO_END_FACE_INDEX)))
-        self._material.diffuseColor.setValues(0, len(bands.colours), bands.colours)
+        self._material.diffuseColor.setValues(0, len(deviation_bands.COLOURS), deviation_bands.COLOURS)
         _fill(self._points.point, found.points.tolist())
         _fill(self._faces.coordIndex, index.astype(np.int64).ravel().tolist())
         _fill(self._faces.materialIndex, band.tolist())
@@ -76,11 +78,11 @@ def _legend(bands: Bands) -> list[Any]:
     camera.position, camera.height, camera.nearDistance, camera.farDistance = (0, 0, 1), 2.0, 0.5, 1.5
     depth.test = False
     font.size = FONT_SIZE
-    nodes = [unpickable(), unlit(), camera, depth, font]
+    nodes = [unlit(), camera, depth, font]
     step = HEIGHT + GAP
     count = len(bands.names)
     nodes.append(_patch(LEFT - GAP, BOTTOM - GAP, PAPER_WIDTH, count * step + GAP, PAPER_COLOUR))
-    for row, (name, colour) in enumerate(zip(bands.names, bands.colours)):
+    for row, (name, colour) in enumerate(zip(bands.names, deviation_bands.COLOURS)):
         bottom = BOTTOM + row * step
         nodes.append(_patch(LEFT, bottom, WIDTH, HEIGHT, colour))
         nodes.append(_text(LEFT + WIDTH + GAP, bottom + HEIGHT / 4, name))

@@ -9,7 +9,7 @@ from pivy import coin
 from PySide import QtCore, QtGui
 
 from ..core import deviation_bands
-from ..core.errors import InputError
+from ..core.errors import Cancelled, InputError
 from ..document import verification
 from ..document.playback import Played, played
 from . import panels
@@ -17,6 +17,9 @@ from .playback_nodes import PlaybackNodes, Stage
 from .spot_node import SpotNode
 
 SWATCH_PX = 16
+LEAST_RESOLUTION_MM = 0.001
+# A click takes a point that it passes within so many spacings of the points.
+PICK_REACH = 1.5
 HINT = "Click on a coloured spot in the 3D view."
 
 
@@ -38,6 +41,7 @@ class VerificationPanel:
         self.form.gouge.clicked.connect(lambda: self.show_spot(result.WorstGougePoint))
         self.form.remainder.clicked.connect(lambda: self.show_spot(result.WorstRemainderPoint))
         self.form.play.clicked.connect(self.play_from_here)
+        self.form.again.clicked.connect(self.verify_again)
 
     # ------------------------------------------------------------------ what FreeCAD calls
 
@@ -71,6 +75,12 @@ class VerificationPanel:
         # FreeCAD takes the closed panel away only when this click is dealt with.
         QtCore.QTimer.singleShot(0, lambda: open_playback(op).go_to_position(number))
 
+    def verify_again(self) -> None:
+        """With the resolution of the field; a panel of the new result takes the place of this one."""
+        op, resolution_mm = self.result.Operation, self.form.resolution.property("rawValue")
+        self.reject()
+        QtCore.QTimer.singleShot(0, lambda: run_and_show(op, resolution_mm))
+
     def close(self) -> None:
         """Calling it again changes nothing."""
         if self._callback is not None:
@@ -88,9 +98,10 @@ class VerificationPanel:
         pressed = event.getState() == coin.SoButtonEvent.DOWN
         if event.getButton() != coin.SoMouseButtonEvent.BUTTON1 or not pressed:
             return
-        hit = self._view.getObjectInfo(tuple(event.getPosition().getValue()))
-        if hit is not None:
-            self.show_spot((hit["x"], hit["y"], hit["z"]))
+        line = self._view.projectPointToLine(*event.getPosition().getValue())
+        row = self._found.first_on_line(*line, PICK_REACH * self.result.Resolution.Value)
+        if row is not None:
+            self.show_spot(self._found.points[row])
 
     def _cut_by(self, move: int) -> str:
         if move == verification.NO_MOVE:
@@ -127,7 +138,14 @@ class VerificationForm(QtGui.QWidget):
         self.remainder = QtGui.QPushButton(deviation_bands.length(result.WorstRemainder.Value))
         layout.addRow("Least deviation", self.gouge)
         layout.addRow("Most that remains", self.remainder)
-        layout.addRow("Resolution", QtGui.QLabel(f"{result.Resolution.Value:g} mm"))
+        self.resolution = FreeCADGui.UiLoader().createWidget("Gui::QuantitySpinBox")
+        self.resolution.setProperty("unit", "mm")
+        self.resolution.setProperty("minimum", LEAST_RESOLUTION_MM)
+        self.resolution.setProperty("rawValue", result.Resolution.Value)
+        self.resolution.setToolTip("Distance of the points looked at; their deviations do not depend on it")
+        self.again = QtGui.QPushButton("Verify again")
+        layout.addRow("Resolution", self.resolution)
+        layout.addRow(self.again)
         self._add_bands(layout, result)
         self._hint = QtGui.QLabel(HINT)
         layout.addRow(self._hint)
@@ -149,13 +167,30 @@ class VerificationForm(QtGui.QWidget):
     def _add_bands(self, layout: Any, result: Any) -> None:
         bands = deviation_bands.bands(result.Tolerance.Value)
         shares = dict(line.rsplit(": ", 1) for line in result.Bands)
-        for name, colour in zip(bands.names, bands.colours):
+        for name, colour in zip(bands.names, deviation_bands.COLOURS):
             if name in shares:
                 swatch = QtGui.QPixmap(SWATCH_PX, SWATCH_PX)
                 swatch.fill(QtGui.QColor.fromRgbF(*colour))
                 picture = QtGui.QLabel()
                 picture.setPixmap(swatch)
                 layout.addRow(picture, QtGui.QLabel(f"{name}: {shares[name]}"))
+
+
+def run_and_show(op: Any, resolution_mm: float | None = None) -> None:
+    """Verify as one step to undo, then show the result; a failure is told in a dialog."""
+    from .commands import report
+
+    op.Document.openTransaction("Verify")
+    try:
+        panels.check_none_is_open()
+        result = verification.verify(op, resolution_mm)
+    except Exception as error:
+        op.Document.abortTransaction()
+        if not isinstance(error, Cancelled):
+            report(error)
+        return
+    op.Document.commitTransaction()
+    open_panel(result)
 
 
 def open_panel(result: Any) -> VerificationPanel:

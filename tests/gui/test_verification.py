@@ -1,0 +1,170 @@
+"""Verify in a real window: the command by mouse, colours and legend, a click on a spot, from there to playback."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+from freecad_window import FreeCADWindow
+from test_pick_and_finish import COARSE, dialog_text, press
+
+PANEL = """
+import gc
+from freecad_mpm.gui import verification_panel
+panel = next(o for o in gc.get_objects() if isinstance(o, verification_panel.VerificationPanel) and o._callback)
+form, result_object = panel.form, panel.result
+"""
+# Pixels of the view in the hue of a band's colour, whatever the light does to its brightness.
+HUES = """
+import colorsys
+def share_of_hue(color):
+    file = os.path.join(FreeCAD.getTempPath(), "view.png")
+    view.saveImage(file, 400, 300, "White")
+    image = QtGui.QImage(file)
+    hue, saturation, _ = colorsys.rgb_to_hsv(*color)
+    def same(pixel):
+        h, s, v = colorsys.rgb_to_hsv(pixel.redF(), pixel.greenF(), pixel.blueF())
+        return v > 0.1 and abs((h - hue + 0.5) % 1 - 0.5) < 0.02 and abs(s - saturation) < 0.1
+    points = [QtGui.QColor(image.pixel(x, y)) for x in range(400) for y in range(300)]
+    return sum(map(same, points)) / len(points)
+"""
+
+
+# Few points, so that a test takes seconds.
+ROUGH = "from freecad_mpm.core import cutting\ncutting.DEXELS_ALONG = 80\n"
+
+
+@pytest.fixture
+def panel(window: FreeCADWindow, part: None) -> Iterator[None]:
+    window.run(COARSE + ROUGH + "unfold(op)\nsettle(300)")
+    press(window, "MPM_Verify")
+    window.wait(lambda: window.run("result = Gui.Control.activeDialog()"))
+    window.run("settle(300)\n" + PANEL)
+    yield
+    window.run("Gui.Control.closeDialog()\npanel.close()")
+
+
+def test_the_result_comes_and_goes_in_one_step_and_the_view_with_it(
+    window: FreeCADWindow, panel: None
+) -> None:
+    names = "result = [obj.Name for obj in doc.Objects if obj.Name in ('Verification', 'MachinedStock')]"
+    nodes = "result = view.getSceneGraph().getNumChildren()"
+    assert sorted(window.run(names)) == ["MachinedStock", "Verification"]
+    assert window.run("result = [result_object.Good, result_object.Stock.ViewObject.Visibility]") == [
+        True,
+        False,
+    ]
+    before = window.run(nodes)
+    window.click(window.run("result = middle_of(form.remainder)"))
+    assert window.run("settle(200)\n" + nodes) > before
+    window.click(window.run("result = panel_button(QtGui.QDialogButtonBox.Close)"))
+    window.wait(lambda: not window.run("result = Gui.Control.activeDialog()"))
+    assert window.run(nodes) == before
+    assert window.run("doc.undo()\nsettle(200)\n" + names) == []
+    assert sorted(window.run("doc.redo()\nsettle(200)\n" + names)) == ["MachinedStock", "Verification"]
+
+
+def test_colours_and_legend_are_seen_and_hidden(window: FreeCADWindow, panel: None) -> None:
+    window.run(HUES + "op.ViewObject.Visibility = False\nview.viewTop()\nview.fitAll()\nsettle(500)")
+    window.screenshot("8-verification")
+    share = (
+        "from freecad_mpm.core import deviation_bands\n"
+        "bands = deviation_bands.bands(result_object.Tolerance.Value)\n"
+        "result = [share_of_hue(deviation_bands.COLOURS[band]) for band in (1, 2, 4, 5)]"
+    )
+    shown = window.run(share)
+    assert min(shown) > 0.0002  # the legend has each of them
+    assert sum(shown) > 0.15  # and the face most
+    assert max(window.run("result_object.ViewObject.Visibility = False\nsettle(300)\n" + share)) < 0.0002
+
+
+def test_a_click_on_a_spot_tells_the_position_that_cut_it(window: FreeCADWindow, panel: None) -> None:
+    window.run("op.ViewObject.Visibility = False\nview.fitAll()\nsettle(500)")
+    window.click(window.run("result = on_screen(middle_of_face(block, top))"))
+    window.run("settle(300)")
+    words = window.run("result = form.spot_words()")
+    position = window.run("result = panel.position")
+    assert position >= 0 and words["Cut last by"].endswith(
+        f"position {position + 1} of {window.run('result = op.Positions')}"
+    )
+    window.screenshot("9-verification-spot")
+    # The tool that cut the spot stands within its radius of it.
+    distance = window.run(
+        "m = panel._nodes._matrices['tool'].matrix.getValue().getValue()\n"
+        "import numpy as np\n"
+        "spot = np.array([float(x) for x in form.spot_words()['Point'].split(', ')])\n"
+        "result = float(np.linalg.norm(np.array(m[3][:3]) - spot))"
+    )
+    assert distance < 2 * 12.7
+    window.click(window.run("result = middle_of(form.play)"))
+    window.run("settle(1000)\nfrom freecad_mpm.gui import playback_panel")
+    shown = window.run(
+        "player = next(o for o in gc.get_objects() if isinstance(o, playback_panel.PlaybackPanel) and o._observer)\n"
+        "result = player.played.playback.position_before(player.place)\nplayer.reject()"
+    )
+    assert shown == position
+
+
+def test_the_worst_places_are_shown(window: FreeCADWindow, panel: None) -> None:
+    for button, name in (("gouge", "WorstGouge"), ("remainder", "WorstRemainder")):
+        window.click(window.run(f"result = middle_of(form.{button})"))
+        words = window.run("settle(200)\nresult = form.spot_words()")
+        assert words["Deviation"] == window.run(f"result = form.{button}.text()")
+        point = [float(value) for value in words["Point"].split(", ")]
+        assert point == pytest.approx(window.run(f"result = list(result_object.{name}Point)"), abs=2e-3)
+
+
+def test_a_double_click_opens_the_panel_again_and_says_when_the_path_is_another(
+    window: FreeCADWindow, panel: None
+) -> None:
+    window.run("panel.reject()\nsettle(200)\nop.ForwardStep = 16\ndoc.recompute()\nsettle(200)")
+    icon = "result = os.path.basename(result_object.ViewObject.Proxy.getIcon())"
+    assert window.run(icon) == "problem.svg"
+    window.run(
+        "result_object.ViewObject.Proxy.doubleClicked(result_object.ViewObject)\nsettle(300)\n" + PANEL
+    )
+    told = "result = any('verify again' in label.text() for label in form.findChildren(QtGui.QLabel))"
+    assert window.run(told) is True
+    window.click(window.run("result = middle_of(form.remainder)"))
+    assert window.run("result = [form.spot_words()['Cut last by'], panel.position]")[0].endswith("as it was")
+
+
+def test_without_a_path_the_user_is_told(window: FreeCADWindow, part: None) -> None:
+    window.run(COARSE + "op.SideStep = 0\ndoc.recompute()\nunfold(op)")
+    press(window, "MPM_Verify")
+    assert "there is no up-to-date path" in dialog_text(window)
+    assert window.run("result = doc.getObject('Verification') is None")
+
+
+def test_verify_again_with_another_resolution(window: FreeCADWindow, panel: None) -> None:
+    before = window.run("result = len(panel._found.points)")
+    window.run("form.resolution.setFocus()\nform.resolution.selectAll()")
+    window.type("3 mm")
+    window.click(window.run("result = middle_of(form.again)"))
+    window.wait(
+        lambda: window.run("result = result_object.Resolution.Value == 3 and Gui.Control.activeDialog()")
+    )
+    window.run("settle(300)\n" + PANEL)
+    assert window.run("result = len(panel._found.points)") == pytest.approx(before / 4, rel=0.2)
+
+
+def test_cancel_in_the_progress_dialog_leaves_nothing(window: FreeCADWindow, part: None) -> None:
+    window.run(COARSE + ROUGH + "cutting.DEXELS_ALONG = 1500\nunfold(op)\nsettle(300)")
+    press(window, "MPM_Verify")
+    find = "box = window.findChild(QtGui.QProgressDialog)\nresult = box is not None and box.isVisible()"
+    window.wait(lambda: window.run(find))
+    window.click(window.run("settle(300)\nresult = middle_of(box.findChild(QtGui.QPushButton))"))
+    window.wait(lambda: not window.run("result = doc.HasPendingTransaction"))
+    assert window.run("result = [doc.getObject('Verification'), doc.getObject('MachinedStock')]") == [
+        None,
+        None,
+    ]
+
+
+def test_a_reopened_document_shows_the_colours(window: FreeCADWindow, panel: None, tmp_path) -> None:
+    before = window.run("result = result_object.ViewObject.Proxy.nodes.count")
+    file = str(tmp_path / "part.FCStd")
+    window.run(f"panel.reject()\ndoc.saveAs({file!r})\nFreeCAD.closeDocument(doc.Name)\nsettle(200)")
+    window.run(f"doc = FreeCAD.openDocument({file!r})\nsettle(500)\nview = Gui.ActiveDocument.ActiveView")
+    after = window.run("result = doc.getObject('Verification').ViewObject.Proxy.nodes.count")
+    assert after == before > 1000
