@@ -62,7 +62,7 @@ def _mark(axes: Any, points: Floats, deviation_mm: Floats) -> None:
         label = f"{what}: {deviation_bands.length(deviation_mm[at])}"
         looks = {"marker": marker, "markersize": 11, "color": colour, "markeredgecolor": "white"}
         axes.plot(*points[at, :2], linestyle="", label=label, **looks)
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, 1.06), ncols=2, frameon=False, fontsize=10)
+    axes.figure.legend(loc="center left", bbox_to_anchor=(0.70, 0.24), frameon=False, fontsize=11)
 
 
 def _key(figure: Any, bands: Bands, shares: list[float]) -> None:

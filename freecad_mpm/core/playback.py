@@ -18,6 +18,10 @@ Integers = NDArray[np.int64]
 Names = NDArray[np.str_]
 
 
+# A path that takes no time at all has no mean speed.
+LEAST_SECONDS = 1e-9
+
+
 @dataclass(frozen=True)
 class Moment:
     """What there is to show at one place of the path; set-up frame."""
@@ -74,6 +78,16 @@ class Playback:
 
     def seconds_at(self, place: float) -> float:
         return float(np.interp(place, np.arange(len(self.blocks)), self.seconds))
+
+    def way_at(self, place: float) -> float:
+        return float(np.interp(place, np.arange(len(self.blocks)), self.way_mm))
+
+    def advance(self, place: float, seconds: float, evenly: bool = False) -> float:
+        """The place so much time later; evenly: the tip at its mean speed all along, instead of the machine's pace."""
+        if not evenly:
+            return self.at_seconds(self.seconds_at(place) + seconds)
+        mean_mm_per_s = self.way_mm[-1] / max(self.seconds[-1], LEAST_SECONDS)
+        return self.at_way(self.way_at(place) + seconds * mean_mm_per_s)
 
     def position_before(self, place: float) -> int:
         """Number of the last position that was reached; -1 before the first."""

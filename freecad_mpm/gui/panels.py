@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
 import FreeCADGui
-from PySide import QtGui
+from PySide import QtCore, QtGui
 
 from ..core.errors import InputError
 
@@ -18,3 +22,21 @@ def check_none_is_open() -> None:
     """Raise InputError when FreeCAD shows another task panel: there is room for one."""
     if FreeCADGui.Control.activeDialog():
         raise InputError("another task panel is open: close it first")
+
+
+def view_of(document: Any) -> Any:
+    """The document's active 3D view. Raises InputError when a sheet or drawing is active instead."""
+    view = FreeCADGui.getDocument(document.Name).ActiveView
+    if not hasattr(view, "getSceneGraph"):
+        raise InputError(f"{document.Label}: its 3D view must be the active one")
+    return view
+
+
+@contextmanager
+def busy() -> Iterator[None]:
+    """The pointer says so while something takes a second or two."""
+    QtGui.QApplication.setOverrideCursor(QtCore.Qt.WaitCursor)
+    try:
+        yield
+    finally:
+        QtGui.QApplication.restoreOverrideCursor()

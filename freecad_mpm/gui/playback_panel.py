@@ -108,10 +108,11 @@ class PlaybackPanel:
     # ------------------------------------------------------------------ inside
 
     def _load(self) -> None:
-        self.played: Played = played(self.op)
-        self._nodes = PlaybackNodes(self.played)
+        view = panels.view_of(self.op.Document)
+        with panels.busy():
+            self.played: Played = played(self.op)
+            self._nodes = PlaybackNodes(self.played)
         self.form.show_count(len(self.played.playback.visited.move))
-        view = FreeCADGui.getDocument(self.op.Document.Name).ActiveView
         self._stage = Stage(view, self.op, self.played, self._nodes)
         self._show_machine()
         self.go_to(self._place)
@@ -146,9 +147,9 @@ class PlaybackPanel:
     def _tick(self) -> None:
         now = time.perf_counter()
         playback = self.played.playback
-        seconds = playback.seconds_at(self._place) + (now - self._last_tick) * self.form.speed_factor
+        seconds = (now - self._last_tick) * self.form.speed_factor
         self._last_tick = now
-        self._move(playback.at_seconds(seconds))
+        self._move(playback.advance(self._place, seconds, self.form.even.isChecked()))
         if now - self._last_words > WORDS_S:
             self._show_words()
         if self._place >= playback.last:
@@ -223,6 +224,8 @@ class PlaybackForm(QtGui.QWidget):
         self.speed.addItems([f"{speed:g} ×" for speed in SPEEDS])
         self.speed.setCurrentIndex(SPEEDS.index(DEFAULT_SPEED))
         self.speed.setToolTip("Of the machine's own time, by its file's velocities and the feeds")
+        self.even = QtGui.QCheckBox()
+        self.even.setToolTip("The tip at one speed all along: rapids and slow turns do not stand out")
         self.view = QtGui.QComboBox()
         self.view.addItems([PART_FIXED, MACHINE_VIEW])
         self.machine = QtGui.QCheckBox()
@@ -231,6 +234,7 @@ class PlaybackForm(QtGui.QWidget):
         for name, widget in (
             ("Go to", self.number),
             ("Speed", self.speed),
+            ("Even pace", self.even),
             ("View", self.view),
             ("Show machine", self.machine),
         ):

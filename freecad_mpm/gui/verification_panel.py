@@ -31,13 +31,14 @@ class VerificationPanel:
         self.form = VerificationForm(result)
         self.position = verification.NO_MOVE  # number of the position that cut the spot, from 0
         self._found = verification.deviation_of(result)
-        self._view = FreeCADGui.getDocument(result.Document.Name).ActiveView
+        self._view = panels.view_of(result.Document)
         self._callback = self._view.addEventCallbackPivy(
             coin.SoMouseButtonEvent.getClassTypeId(), self._clicked
         )
         self._spot = SpotNode(self._view)
         self._stage: Stage | None = None
-        self._played = None if result.Outdated else played(result.Operation)
+        with panels.busy():
+            self._played = None if _is_history(result) else played(result.Operation)
         self.form.gouge.clicked.connect(lambda: self.show_spot(result.WorstGougePoint))
         self.form.remainder.clicked.connect(lambda: self.show_spot(result.WorstRemainderPoint))
         self.form.play.clicked.connect(self.play_from_here)
@@ -125,6 +126,11 @@ class VerificationPanel:
         return self._nodes
 
 
+def _is_history(result: Any) -> bool:
+    """The path that was cut is no longer there."""
+    return result.Outdated or result.Operation is None
+
+
 class VerificationForm(QtGui.QWidget):
     """The widgets alone."""
 
@@ -132,7 +138,7 @@ class VerificationForm(QtGui.QWidget):
         super().__init__()
         self.setWindowTitle("Verification")
         layout = QtGui.QFormLayout(self)
-        if result.Outdated:
+        if _is_history(result):
             layout.addRow(QtGui.QLabel("<b>The path has changed since: verify again.</b>"))
         self.gouge = QtGui.QPushButton(deviation_bands.length(result.WorstGouge.Value))
         self.remainder = QtGui.QPushButton(deviation_bands.length(result.WorstRemainder.Value))
@@ -144,6 +150,7 @@ class VerificationForm(QtGui.QWidget):
         self.resolution.setProperty("rawValue", result.Resolution.Value)
         self.resolution.setToolTip("Distance of the points looked at; their deviations do not depend on it")
         self.again = QtGui.QPushButton("Verify again")
+        self.again.setEnabled(result.Operation is not None)
         layout.addRow("Resolution", self.resolution)
         layout.addRow(self.again)
         self._add_bands(layout, result)

@@ -117,6 +117,19 @@ def test_by_way_of_the_tip(played):
     assert steps.max() <= 1 + 1e-9  # chords are no longer than the way
 
 
+def test_advancing_by_the_machines_time_and_evenly(played):
+    total = played.seconds[-1]
+    assert played.seconds_at(played.advance(12.5, 0.5)) == pytest.approx(played.seconds_at(12.5) + 0.5)
+    mean = played.way_mm[-1] / total
+    place, ways = 0.0, [0.0]
+    for _ in range(20):
+        place = played.advance(place, 0.05, evenly=True)
+        ways.append(played.way_at(place))
+    assert np.diff(ways) == pytest.approx(0.05 * mean)
+    assert played.advance(0.0, total, evenly=True) == pytest.approx(played.last)
+    assert played.advance(5.0, 2 * total) == played.last
+
+
 def test_positions_are_reached_in_their_order(played):
     kind, tip, axis, _ = two_passes()
     for number in range(len(played.visited.move)):
