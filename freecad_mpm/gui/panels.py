@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
+import FreeCAD
 import FreeCADGui
 from PySide import QtCore, QtGui
 
@@ -40,3 +41,32 @@ def busy() -> Iterator[None]:
         yield
     finally:
         QtGui.QApplication.restoreOverrideCursor()
+
+
+class Watch:
+    """Calls `recomputed` when the object `obj` is computed anew, and `gone` when it or its document goes away, until
+    `end`. The names of the slots are FreeCAD's."""
+
+    def __init__(self, obj: Any, recomputed: Callable[[], None], gone: Callable[[], None]) -> None:
+        self._obj, self._document = obj, obj.Document
+        self._recomputed, self._gone = recomputed, gone
+        self.active = True
+        FreeCAD.addDocumentObserver(self)
+
+    def end(self) -> None:
+        """Calling it again changes nothing."""
+        if self.active:
+            FreeCAD.removeDocumentObserver(self)
+            self.active = False
+
+    def slotRecomputedObject(self, obj: Any) -> None:
+        if obj == self._obj:
+            self._recomputed()
+
+    def slotDeletedObject(self, obj: Any) -> None:
+        if obj == self._obj:
+            self._gone()
+
+    def slotDeletedDocument(self, document: Any) -> None:
+        if document == self._document:
+            self._gone()

