@@ -76,6 +76,10 @@ class Playback:
         """The place of a position by its number in machining order, from 0."""
         return float(self.position_block[number])
 
+    def at_move(self, move: int) -> float:
+        """The place where a move of the given path ends."""
+        return float(np.searchsorted(self.blocks.source, move, side="right")) - 1.0
+
     def seconds_at(self, place: float) -> float:
         return float(np.interp(place, np.arange(len(self.blocks)), self.seconds))
 

@@ -31,7 +31,7 @@ if TYPE_CHECKING:  # needs the native module
 NAME, STOCK = "Verification", "MachinedStock"
 STOCK_LABEL = "Machined stock of {}"
 RESULT_LABEL = "Verification of {}"
-NO_MOVE = -1
+NO_MOVE = NO_POSITION = -1
 # Of the computer's memory that a verification may take.
 MEMORY_SHARE = 0.7
 GIGABYTE = 1e9
@@ -182,14 +182,13 @@ def deviation_of(result: Any) -> Deviation:
         return Deviation(data["points"], data["deviation_mm"], data["move"], data["triangles"])
 
 
-def position_at(result: Any, move: int) -> int:
-    """Number in machining order, from 0, of the position in which a move ends, or of the next one after it; NO_MOVE when
-    there is none."""
+def position_at(op: Any, move: int) -> int:
+    """Number in machining order, from 0, of the position in which a move of the path ends; NO_POSITION: in none."""
     from .playback import visited
 
-    moves = visited(result.Operation).move
+    moves = visited(op).move
     number = int(np.searchsorted(moves, move))
-    return number if 0 <= move and number < len(moves) else NO_MOVE
+    return number if number < len(moves) and moves[number] == move else NO_POSITION
 
 
 def write_picture(result: Any, path: str) -> None:

@@ -63,6 +63,10 @@ class PlaybackPanel:
         """By its number in machining order, from 0."""
         self.go_to(self.played.playback.at_position(number))
 
+    def go_to_move(self, move: int) -> None:
+        """To the end of a move of the operation's path, from 0."""
+        self.go_to(self.played.playback.at_move(move))
+
     def step(self, count: int) -> None:
         """To the next position, or with -1 to the one before."""
         playback = self.played.playback

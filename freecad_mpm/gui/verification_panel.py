@@ -29,7 +29,7 @@ class VerificationPanel:
     def __init__(self, result: Any) -> None:
         self.result = result
         self.form = VerificationForm(result)
-        self.position = verification.NO_MOVE  # number of the position that cut the spot, from 0
+        self.move = verification.NO_MOVE  # that cut the spot last
         self._found = verification.deviation_of(result)
         self._view = panels.view_of(result.Document)
         self._callback = self._view.addEventCallbackPivy(
@@ -58,24 +58,21 @@ class VerificationPanel:
     # ------------------------------------------------------------------ spots
 
     def show_spot(self, point: Any) -> None:
-        """Mark the point of the deviation nearest to `point`, and put the tool at the position that cut it last."""
+        """Mark the point of the deviation nearest to `point`, and put the tool where the move that cut it last ends."""
         row = self._found.nearest(point)
-        at, move = self._found.points[row], int(self._found.move[row])
+        at, self.move = self._found.points[row], int(self._found.move[row])
         self._spot.show(at)
-        self.position = (
-            verification.NO_MOVE if self._played is None else verification.position_at(self.result, move)
-        )
-        self.form.show_spot(at, float(self._found.deviation_mm[row]), self._cut_by(move))
-        self.form.play.setEnabled(self.position != verification.NO_MOVE)
+        self.form.show_spot(at, float(self._found.deviation_mm[row]), self._cut_by())
+        self.form.play.setEnabled(self._knows_the_move())
         self._show_tool()
 
     def play_from_here(self) -> None:
         from .playback_panel import open_panel as open_playback
 
-        op, number = self.result.Operation, self.position
+        op, move = self.result.Operation, self.move
         self.reject()
         # FreeCAD takes the closed panel away only when this click is dealt with.
-        QtCore.QTimer.singleShot(0, lambda: open_playback(op).go_to_position(number))
+        QtCore.QTimer.singleShot(0, lambda: open_playback(op).go_to_move(move))
 
     def verify_again(self) -> None:
         """With the resolution of the field; a panel of the new result takes the place of this one."""
@@ -115,18 +112,25 @@ class VerificationPanel:
         if row is not None:
             self.show_spot(self._found.points[row])
 
-    def _cut_by(self, move: int) -> str:
-        if move == verification.NO_MOVE:
+    def _knows_the_move(self) -> bool:
+        return self._played is not None and self.move != verification.NO_MOVE
+
+    def _cut_by(self) -> str:
+        if self.move == verification.NO_MOVE:
             return "no move"
         if self._played is None:
-            return f"move {move + 1} of the path as it was"
-        return f"move {move + 1}, position {self.position + 1} of {len(self._played.playback.visited.move)}"
+            return f"move {self.move + 1} of the path as it was"
+        position = verification.position_at(self.result.Operation, self.move)
+        if position == verification.NO_POSITION:
+            return f"move {self.move + 1}, between positions"
+        return f"move {self.move + 1}, position {position + 1} of {len(self._played.playback.visited.move)}"
 
     def _show_tool(self) -> None:
-        if self._played is None or self.position == verification.NO_MOVE:
+        if self._played is None or self.move == verification.NO_MOVE:
+            self._clear_tool()
             return
         playback = self._played.playback
-        moment = playback.moment(playback.at_position(self.position))
+        moment = playback.moment(playback.at_move(self.move))
         self._nodes_in_view(self._played).place(playback.placements(moment, part_fixed=True))
 
     def _nodes_in_view(self, shown: Played) -> PlaybackNodes:

@@ -135,6 +135,7 @@ def test_positions_are_reached_in_their_order(played):
     for number in range(len(played.visited.move)):
         moment = played.moment(played.at_position(number))
         assert moment.move == played.visited.move[number]
+        assert played.at_move(moment.move) == played.at_position(number)
         assert moment.tip == pytest.approx(tip[moment.move])
         assert moment.axis == pytest.approx(axis[moment.move], abs=1e-9)
 

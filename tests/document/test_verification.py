@@ -79,11 +79,11 @@ def test_the_stored_deviation_holds_the_extremes(result: Any) -> None:
     assert found.triangles.max() < len(found.points)
 
 
-def test_the_position_that_cut_a_spot(op: Any, result: Any) -> None:
+def test_the_position_in_which_a_move_ends(op: Any) -> None:
     reached = [move for move, code in enumerate(op.MoveStatus) if code >= 0]
-    assert verification.position_at(result, reached[5]) == 5
-    assert verification.position_at(result, -1) == -1
-    assert verification.position_at(result, 10**6) == -1
+    between = next(move for move, code in enumerate(op.MoveStatus) if code < 0)
+    assert verification.position_at(op, reached[5]) == 5
+    assert [verification.position_at(op, move) for move in (between, -1, 10**6)] == [-1, -1, -1]
 
 
 def test_verifying_again_fills_the_same_objects(op: Any, result: Any) -> None:
