@@ -16,7 +16,7 @@ from ..core.errors import InputError
 def only_close() -> int:
     """The standard buttons of a panel that only shows something."""
     close = QtGui.QDialogButtonBox.Close
-    return int(getattr(close, "value", close))  # a number in PySide2, an enumeration in PySide6
+    return int(getattr(close, "value", close))  # a number or an enumeration, by the Qt binding
 
 
 def check_none_is_open() -> None:
