@@ -58,11 +58,13 @@ class Stage:
     """The nodes in a 3D view, before the document's objects, so that `part` carries those."""
 
     def __init__(self, view: Any, op: Any, played: Played, nodes: PlaybackNodes) -> None:
-        self._scene, self._nodes = view.getSceneGraph(), [nodes.root, nodes.part]
+        self._nodes = [nodes.root, nodes.part]
         self._hidden = None
         if len(played.playback.blocks) > LONG_PATH:
             self._hide(op)
             self._nodes.append(_trail(played))
+        self._scene = _parent(view.getSceneGraph(), op.ViewObject.RootNode)
+        self._scene.ref()  # the view may go before us
         places = [self._scene.findChild(obj.ViewObject.RootNode) for obj in op.Document.Objects]
         first = min(place for place in places if place >= 0)
         for offset, node in enumerate(self._nodes):
@@ -70,9 +72,13 @@ class Stage:
 
     def clear(self) -> None:
         """Leave the view as it was found; calling it again changes nothing."""
+        if self._scene is None:
+            return
         for node in self._nodes:
             if self._scene.findChild(node) >= 0:
                 self._scene.removeChild(node)
+        self._scene.unref()
+        self._scene = None
         if self._hidden is not None:
             switch, child = self._hidden
             switch.whichChild = child
@@ -83,6 +89,15 @@ class Stage:
         switch = op.ViewObject.SwitchNode
         self._hidden = switch, switch.whichChild.getValue()
         switch.whichChild = coin.SO_SWITCH_NONE
+
+
+def _parent(scene: Any, node: Any) -> Any:
+    """The group in `scene` that holds `node`: the scene itself or, in newer FreeCADs, one for all objects."""
+    search = coin.SoSearchAction()
+    search.setNode(node)
+    search.setSearchingAll(True)  # hidden ones too
+    search.apply(scene)
+    return search.getPath().getNodeFromTail(1)
 
 
 def _trail(played: Played) -> Any:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import pytest
 from freecad_window import FreeCADWindow
 from test_pick_and_finish import COARSE, dialog_text, press
+from test_playback import NODES
 
 PANEL = """
 import gc
@@ -48,7 +49,7 @@ def test_the_result_comes_and_goes_in_one_step_and_the_view_with_it(
     window: FreeCADWindow, panel: None
 ) -> None:
     names = "result = [obj.Name for obj in doc.Objects if obj.Name in ('Verification', 'MachinedStock')]"
-    nodes = "result = view.getSceneGraph().getNumChildren()"
+    nodes = NODES
     assert sorted(window.run(names)) == ["MachinedStock", "Verification"]
     assert window.run("result = [result_object.Good, result_object.Stock.ViewObject.Visibility]") == [
         True,
