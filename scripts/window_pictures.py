@@ -1,6 +1,7 @@
 """The pictures of docs/freecad.md: FreeCAD's window with the example part, played back and verified.
 
-    xvfb-run -a -s "-screen 0 1600x1000x24 -dpi 96 +extension GLX" /usr/bin/python3 scripts/window_pictures.py docs/images
+    xvfb-run -a -s "-screen 0 1600x1000x24 -dpi 96 +extension GLX" \\
+        /usr/bin/python3 scripts/window_pictures.py docs/images
 
 Without the folder they go to out/."""
 
