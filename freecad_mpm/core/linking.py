@@ -16,5 +16,11 @@ def link_options(job: Job) -> _core.LinkOptions:
         safe_clearance_mm=spec.safe_clearance_mm,
         approach_distance_mm=spec.approach_distance_mm,
         gouge_mm=job.tolerance.gouge_mm,
-        cut_length_max_mm=CUT_LENGTH_STEPS * job.footprint.forward_step_mm,
+        cut_length_max_mm=cut_length_max_mm(job),
     )
+
+
+def cut_length_max_mm(job: Job) -> float:
+    """How far apart (mm) neighbours of a pass may be to be joined by a cut; a spun tool also goes round its contact."""
+    swing = 2 * job.tool.radius_mm if job.method.contact_spacing_mm else 0.0
+    return CUT_LENGTH_STEPS * job.footprint.forward_step_mm + swing

@@ -268,12 +268,6 @@ def link(job: Job, scene: Scene, positions: Positions, cuts: Floats | None, stag
     return Path(**linked)
 
 
-def cut_length_max_mm(job: Job) -> float:
-    """How far apart (mm) neighbours of a pass may be to be joined by a cut; a spun tool also goes round its contact."""
-    swing = 2 * job.tool.radius_mm if job.method.contact_spacing_mm else 0.0
-    return CUT_LENGTH_STEPS * job.footprint.forward_step_mm + swing
-
-
 def positions_in_part(positions: Positions, frame: Frame) -> Positions:
     return replace(
         positions,
