@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from . import kinematics, machine_motion, machines
 from .machine_path import MachinePath
 from .machines import Machine
+from .motion_time import move_seconds
 from .plan import Plan
-from .program_report import move_seconds
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
