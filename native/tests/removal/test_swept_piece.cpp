@@ -57,7 +57,7 @@ TEST(SweptPiece, AgreesWithDenseSampling) {
       const Ray ray{through, n % 3 == 0 ? random.direction() : (axis + random.vector(0.5)).normalized()};
       std::vector<Span> spans;
       for (std::uint32_t s = 0; s < sweep.strokes().size(); ++s)
-        sweep.visit_spans(s, 15u, ray, -40, 60, [&](double from, double to) { spans.push_back({from, to}); });
+        sweep.visit_spans(s, ~0u, ray, -40, 60, [&](double from, double to) { spans.push_back({from, to}); });
       for (double t = -40; t <= 60; t += 0.77) {
         const double distance = dense_distance(tool, a, b, ray.at(t));
         // Times in between: the distance may be less by a little.

@@ -36,7 +36,8 @@ class ToolSweep {
   }
 
   // Calls visit(from, to) for the parts of lo <= t <= hi that the stroke sweeps, piece by piece: they may
-  // overlap. The pieces that follow are left out when one sweeps the whole.
+  // overlap. `pieces`: a bit each, as pieces_near gives them. The pieces that follow are left out when one sweeps
+  // the whole.
   template <class Visit>
   void visit_spans(std::uint32_t stroke,
                    std::uint32_t pieces,
@@ -44,7 +45,7 @@ class ToolSweep {
                    double lo,
                    double hi,
                    const Visit& visit) const {
-    for (std::size_t k = 0; pieces >> k != 0; ++k)
+    for (std::size_t k = 0; k <= cones_.size(); ++k)
       if (pieces >> k & 1) {
         const Spans spans = piece_spans(stroke, k, ray, {lo, hi});
         for (std::size_t i = 0; i < spans.count; ++i) {
