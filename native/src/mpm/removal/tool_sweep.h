@@ -36,8 +36,8 @@ class ToolSweep {
   }
 
   // Calls visit(from, to) for the parts of lo <= t <= hi that the stroke sweeps, piece by piece: they may
-  // overlap. `pieces`: a bit each, as pieces_near gives them. The pieces that follow are left out when one sweeps
-  // the whole.
+  // overlap. `pieces`: a bit each, as pieces_near gives them. The pieces that follow are left out when one
+  // sweeps the whole.
   template <class Visit>
   void visit_spans(std::uint32_t stroke,
                    std::uint32_t pieces,
