@@ -191,11 +191,19 @@ def make_positioner(job: Job, scene: Scene, stages: Stages) -> _core.Positioner:
             scene.tool,
             tilt_max_deg=method.tilt_max_deg,
             spin_deg=method.spin_deg,
-            options=method.options,
+            options=method_options(job),
         )
 
     with blame(f"{job.source}: [{method.table}]"):
         return stages.run_native("index", make)
+
+
+def method_options(job: Job) -> dict[str, float]:
+    """The method's options: what it may cut in is the job's gouge tolerance, unless its own table says otherwise."""
+    options: dict[str, float] = dict(job.method.options)
+    if "gouge_mm" in _core.METHODS[job.method.name]["options"]:
+        options.setdefault("gouge_mm", job.tolerance.gouge_mm)
+    return options
 
 
 def place(

@@ -95,6 +95,22 @@ def same_results(plan: Plan) -> tuple[str, str]:
     return cl_file.to_csv(plan, plan.path), plan.program.text
 
 
+@pytest.mark.parametrize("gouge_mm", [1e-2, 1e-5])
+def test_positions_are_proven_to_the_jobs_own_tolerance(coarse_job: Job, gouge_mm: float) -> None:
+    tolerance = Tolerance(gouge_mm=gouge_mm, chord_mm=1.0)
+    plan = planning.plan(replace(coarse_job, method=MethodSpec("exact"), tolerance=tolerance))
+    lower = plan.clearance[plan.usable, 0]
+    # Where nothing cuts in, the proof goes about as far as it is asked to.
+    assert -gouge_mm <= lower.min() < -gouge_mm / 10
+
+
+def test_an_option_of_the_method_goes_before_the_jobs_tolerance(coarse_job: Job) -> None:
+    own = replace(coarse_job, method=MethodSpec("exact", options={"gouge_mm": 1e-4}))
+    assert planning.method_options(own) == {"gouge_mm": 1e-4}
+    assert planning.method_options(replace(own, method=MethodSpec("exact"))) == {"gouge_mm": 0.02}
+    assert planning.method_options(replace(own, method=MethodSpec("vcrf"))) == {}
+
+
 @pytest.mark.parametrize("method", planning.method_names())
 def test_any_number_of_threads_gives_the_same_bytes(coarse_job: Job, method: str) -> None:
     coarse_job = replace(coarse_job, method=MethodSpec(method))
