@@ -67,8 +67,10 @@ def test_the_pages_hold_every_claim_and_every_case() -> None:
     names = [*bench.DEFAULT_SURFACES, *(f"bi-degree {degree}" for degree in bench_degrees.DEGREES)]
     assert claims[: len(names)] == [f"{name}: fewer than 5 seeds and 20 iterations" for name in names]
     assert len(claims) == len(names) + 2
-    cases = [line["what"] for line in table_in(COMPARISON, "scaling")]
-    assert cases == [case.name for case in bench_scaling.cases()]
+    cases = {line["what"]: line for line in table_in(COMPARISON, "scaling")}
+    assert list(cases) == [case.name for case in bench_scaling.cases()]
+    cells = {name: int(line["cells"]) for name, line in cases.items()}
+    assert cells["coarse tolerance"] < cells["thesis' footprint"] < cells["fine tolerance"]
 
 
 def test_time_is_that_of_the_positions_alone(rows: list[Row]) -> None:

@@ -25,10 +25,10 @@ struct ContactZone {
   bool contains(const BezierPatch* of, const ParamBox& box) const;
 };
 
-// The largest zone found round `lowest` (a result of lowest_point on `patch`) in which the ring's
-// second-order bound, its third-order loss taken as loss (a^2 + b^2), is positive semidefinite: there the gap
-// is nowhere less than at the contact, for any tolerance. `third`: third_derivative_bound of the whole patch.
-// None where the gap is too nearly flat.
+// The largest of four zones round `lowest` (a result of lowest_point on `patch`), along the valley of the
+// gap, in which the ring's second-order bound without its first-order terms is positive definite, the terms
+// of third order and the loss taken off the squares: there the gap is nowhere less than at the contact, for
+// any tolerance. `third`: third_derivative_bound of the whole patch. None where the gap is too nearly flat.
 std::optional<ContactZone> contact_zone(const Tool& tool,
                                         const ToolPose& pose,
                                         const ClearanceBound& bound,

@@ -26,17 +26,19 @@ struct Certificate {
 };
 
 struct CertifyOptions {
-  double tolerance = 1e-3;         // mm: what may be cut in and still be called free
-  double sharpness = 1e-3;         // mm: while the sharp budget lasts, cells are split until proven to this
-  double enough = 0.0;             // mm: lower bounds beyond this are not sharpened
+  double tolerance = 1e-3;  // mm: what may be cut in and still be called free
+  double sharpness = 1e-3;  // mm: while the sharp budget lasts, points deeper than this are searched for
+  double enough = 0.0;      // mm: lower bounds beyond this are not sharpened
   std::uint32_t sharp_budget = 0;  // cells
   std::uint32_t budget = 200'000;  // cells; beyond it the verdict is undecided
   bool stop_at_violation = false;  // return at the first surface point deeper than `sharpness`
 };
 
-// Proves a lower bound of the clearance of the tool at `pose` from every face. free: lo >= -tolerance; gouge:
-// a surface point deeper than the tolerance is in `witness`; undecided: the budget ran out. Pieces of trimmed
-// faces too small to tell from their border (kTrimResolution) count as surface.
+// Proves a lower bound of the clearance of the tool at `pose` from every face. Cells are split until proven
+// to the tolerance, and until what they may hold of points deeper than the sharpness was looked for: by an
+// estimate of their least clearance, or by Newton's iteration; that part is searched, not proven. free: lo >=
+// -tolerance; gouge: a surface point deeper than the tolerance is in `witness`; undecided: the budget ran
+// out. Pieces of trimmed faces too small to tell from their border (kTrimResolution) count as surface.
 Certificate certify_pose(const CellTree& tree,
                          const Tool& tool,
                          const ToolPose& pose,
