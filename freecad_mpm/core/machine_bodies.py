@@ -42,6 +42,8 @@ def _tables(
     if not tables:
         return {}
     axis = _upward(tables[0])
+    if axis[2] < FLAT:
+        axis = np.array([0.0, 0.0, 1.0])  # a plate that swings: it still lies under the part
     origin = np.asarray(tables[0].joint_origin_mm) - part_origin
     corners = np.array(list(product(*zip(*part_box)))) - origin
     along = corners @ axis
