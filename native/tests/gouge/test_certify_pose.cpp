@@ -115,6 +115,27 @@ TEST(CertifyPose, AnExhaustedBudgetIsUndecidedNotFree) {
   EXPECT_EQ(c.lo, -kInfinity);
 }
 
+// A small patch that the ring, taken as a whole, touches on its inner side, where the flat bottom is 0.03 mm lower: a cell
+// that the ring proves is not done with before the rest of the body proves it too, whatever is searched in it.
+TEST(CertifyPose, ACellThatIsSearchedForARingContactIsProvenAgainstTheBottomToo) {
+  const Tool tool{6.7, 6.0, 0, 40, {}};
+  const double slope = 0.1, half = 0.4, bend = 0.05;
+  const Vec3 normal(std::sin(slope), 0, std::cos(slope)), along(std::cos(slope), 0, -std::sin(slope));
+  const Vec3 touch = Vec3(tool.major_radius, 0, 0) - tool.minor_radius * normal;
+  std::vector<Vec3> poles;
+  for (double a : {-half, half})
+    for (int j : {-1, 0, 1})
+      poles.push_back(touch + a * along + Vec3(0, j * half, 0) +
+                      (j == 0 ? bend : -bend) * half * half * normal);
+  const SurfaceModel model =
+      testing::one_face(BSplineSurface(1, 2, {0, 0, 1, 1}, {0, 0, 0, 1, 1, 1}, poles));
+  const ToolPose pose{Vec3::Zero(), Vec3::UnitZ()};
+  ASSERT_LT(signed_distance(tool, pose, touch), -0.02);
+  CertifyOptions options;
+  options.sharpness = 1e-9, options.sharp_budget = 4000;
+  EXPECT_EQ(certify_pose(CellTree(model, 2.0), tool, pose, options).verdict, Verdict::gouge);
+}
+
 TEST(LeastQuadratic, IsTheMinimumOverTheSquare) {
   std::mt19937 engine(3);
   std::uniform_real_distribution<double> pick(-1, 1);
