@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Sequence
 from typing import Any
 
@@ -12,6 +11,7 @@ from matplotlib.figure import Figure
 
 from .bench import Row
 from .bench_summary import single_threaded
+from .figure import png_bytes
 
 WIDTH_PX, HEIGHT_PX, DPI = 1400, 800, 100
 # Colours that readers with colour-blindness tell apart (Okabe and Ito, 2008), one a surface.
@@ -37,9 +37,7 @@ def draw(rows: Sequence[Row]) -> bytes:
     figure.legend(
         panels[0, 0].containers, surfaces, loc="upper right", ncol=len(surfaces), frameon=False, fontsize=10
     )
-    png = io.BytesIO()
-    figure.savefig(png, format="png", dpi=DPI)
-    return png.getvalue()
+    return png_bytes(figure)
 
 
 def _bars(axes: Any, rows: Sequence[Row], key: str, title: str, unit: str, log: bool) -> None:

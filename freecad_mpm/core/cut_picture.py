@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 from typing import Any
 
 import numpy as np
@@ -11,6 +10,7 @@ from matplotlib.colors import TwoSlopeNorm
 from matplotlib.figure import Figure
 
 from .cutting import Cut, Extreme
+from .figure import png_bytes
 from .section import Floats, Section
 
 WIDTH_PX, HEIGHT_PX, DPI = 1600, 1000, 100
@@ -60,9 +60,7 @@ def _figure(title: str) -> Figure:
 
 
 def _png(figure: Figure) -> bytes:
-    png = io.BytesIO()
-    figure.savefig(png, format="png", dpi=DPI)
-    return png.getvalue()
+    return png_bytes(figure)
 
 
 def _norm(values: Floats) -> TwoSlopeNorm:

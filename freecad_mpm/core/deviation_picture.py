@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 from typing import Any
 
 import numpy as np
@@ -14,6 +13,7 @@ from numpy.typing import NDArray
 
 from . import deviation_bands
 from .deviation_bands import Bands
+from .figure import png_bytes
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -36,9 +36,7 @@ def render(points: Floats, triangles: Integers, deviation_mm: Floats, bands: Ban
     _fill(axes, points, triangles, band[triangles].min(axis=1))
     _mark(axes, points, deviation_mm)
     _key(figure, bands, bands.shares(deviation_mm))
-    png = io.BytesIO()
-    figure.savefig(png, format="png", dpi=DPI)
-    return png.getvalue()
+    return png_bytes(figure)
 
 
 def _fill(axes: Any, points: Floats, triangles: Integers, band: Integers) -> None:

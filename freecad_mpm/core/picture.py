@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Collection, Sequence
 from pathlib import Path as FilePath
 from typing import Any
@@ -12,6 +11,7 @@ from matplotlib.figure import Figure
 
 from . import picture_panels, picture_scene
 from .faces import FaceArrays
+from .figure import png_bytes
 from .output import write_atomically
 from .plan import Plan
 
@@ -44,6 +44,4 @@ def render(
     picture_panels.tilt(figure.add_axes((0.735, 0.665, 0.245, 0.265)), plan)
     picture_panels.clearance(figure.add_axes((0.735, 0.335, 0.245, 0.245)), plan, gouge_mm)
     picture_panels.key(figure.add_axes((0.70, 0.02, 0.29, 0.25)), plan, gouge_mm)
-    png = io.BytesIO()
-    figure.savefig(png, format="png", dpi=DPI)
-    return png.getvalue()
+    return png_bytes(figure)

@@ -11,6 +11,7 @@ from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from . import picture_style as style
+from .figure import dress
 from .plan import Plan
 
 Floats = NDArray[np.float64]
@@ -28,7 +29,7 @@ def tilt(axes: Any, plan: Plan) -> None:
         of_pass = plan.pass_index == index
         axes.plot(_way(plan.tip[of_pass]), plan.tilt_deg[of_pass], color=colour, linewidth=1.0)
     first_to_last = f", pass {passes[0]} (dark) to {passes[-1]} (light)" if len(passes) > 1 else ""
-    _dress(axes, f"Tilt along the passes{first_to_last}", "way of the tip along the pass / mm", "tilt / °")
+    dress(axes, f"Tilt along the passes{first_to_last}", "way of the tip along the pass / mm", "tilt / °")
 
 
 def _way(tips: Floats) -> Floats:
@@ -44,7 +45,7 @@ def clearance(axes: Any, plan: Plan, gouge_mm: float) -> None:
     """How many positions have which least clearance; those past the range are in the last bar."""
     least = plan.clearance[style.visited(plan), 1] * 1000.0
     least = least[np.isfinite(least)]
-    _dress(axes, "Least clearance of the positions", "clearance / µm (below 0: cuts in)", "positions")
+    dress(axes, "Least clearance of the positions", "clearance / µm (below 0: cuts in)", "positions")
     if not len(least):
         axes.text(0.5, 0.5, "no clearance measured", transform=axes.transAxes, ha="center", color="#777777")
         return
@@ -59,17 +60,6 @@ def clearance(axes: Any, plan: Plan, gouge_mm: float) -> None:
     axes.set_yscale("log")
     axes.set_ylim(bottom=LEAST_BAR)
     axes.axvline(limit, color=style.GOUGE, linewidth=1.0, linestyle="--")
-
-
-def _dress(axes: Any, title: str, x: str, y: str) -> None:
-    axes.set_title(title, fontsize=10, loc="left")
-    axes.set_xlabel(x, fontsize=9)
-    axes.set_ylabel(y, fontsize=9)
-    axes.tick_params(labelsize=8)
-    axes.grid(color="#E6E6E6", linewidth=0.6)
-    axes.set_axisbelow(True)
-    for side in ("top", "right"):
-        axes.spines[side].set_visible(False)
 
 
 def key(axes: Any, plan: Plan, gouge_mm: float) -> None:

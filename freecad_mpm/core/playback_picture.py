@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -15,6 +14,7 @@ from numpy.typing import NDArray
 from . import machine_bodies, machine_motion, picture_style, playback, tool_solid
 from .errors import InputError
 from .faces import FaceArrays
+from .figure import png_bytes
 from .plan import Plan
 from .playback import Playback
 from .playback_style import TOOL_COLOURS, Colour, colour_of, table_letters
@@ -72,9 +72,7 @@ def render(played: Playback, place: float, faces: Sequence[FaceArrays], tool: To
     _fill(on_machine, [*_part(part, bodies[machine_motion.PART]), *_tool(tool, bodies), *machine])
     words = "\n".join(f"{name}: {value}" for name, value in playback.describe(played, place).items())
     figure.text(0.81, 0.90, words, fontsize=12, va="top", linespacing=1.5)
-    png = io.BytesIO()
-    figure.savefig(png, format="png", dpi=DPI)
-    return png.getvalue()
+    return png_bytes(figure)
 
 
 def _part(patches: Sequence[Floats], matrix: Floats) -> list[tuple[Floats, Colour]]:

@@ -8,7 +8,6 @@ Its surfaces, tool and footprint; the section at Y = 27 mm. Where its print can 
 
 from __future__ import annotations
 
-import io
 import json
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -20,6 +19,7 @@ from matplotlib.figure import Figure
 
 from . import cutting, job, planning
 from .faces import FaceArrays
+from .figure import png_bytes
 from .job import Job
 from .resources import EXAMPLES
 from .section import Floats, Section
@@ -233,6 +233,4 @@ def picture(measured: Sequence[Measured], title: str) -> bytes:
         axes.set_xlabel("X / mm")
         axes.set_ylabel(height)
         axes.legend(frameon=False, fontsize=9)
-    png = io.BytesIO()
-    figure.savefig(png, format="png", dpi=100)
-    return png.getvalue()
+    return png_bytes(figure)

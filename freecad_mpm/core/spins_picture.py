@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 from typing import Any
 
 import numpy as np
@@ -11,6 +10,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from . import spacing
+from .figure import dress, png_bytes
 from .plan import Floats, Plan
 from .spins import Spread
 
@@ -35,9 +35,9 @@ def draw_spread(found: Spread, along: Floats, title: str) -> bytes:
             axes.plot(found.spin_deg, row, color=colour, marker=".", markersize=3, linewidth=1)
         axes.set_ylim(bottom=0)
         axes.set_xticks(np.arange(-180, 181, 60))
-        _dress(axes, heading, "spin α / °", label)
+        dress(axes, heading, "spin α / °", label)
     _rings(figure.add_axes((0.71, 0.30, 0.27, 0.42)), found, along, colours)
-    return _png(figure)
+    return png_bytes(figure)
 
 
 def _rings(axes: Any, found: Spread, along: Floats, colours: Floats) -> None:
@@ -49,7 +49,7 @@ def _rings(axes: Any, found: Spread, along: Floats, colours: Floats) -> None:
         axes.plot(one @ across, one @ along, ".", color=colour, markersize=4, label=label)
     axes.plot(0, 0, "k+")
     axes.set_aspect("equal", adjustable="datalim")
-    _dress(axes, "Second contacts of all spins, P at +", "across the feed / mm", "along the feed / mm")
+    dress(axes, "Second contacts of all spins, P at +", "across the feed / mm", "along the feed / mm")
     axes.legend(
         title="footprint / mm", fontsize=8, frameon=False, loc="upper left", bbox_to_anchor=(0, -0.17), ncol=3
     )
@@ -67,10 +67,8 @@ def draw_control(before: Plan, after: Plan, title: str) -> bytes:
         axes = figure.add_axes((0.50, bottom + 0.02, 0.47, 0.34))
         _along_passes(axes, plan, spread, wanted)
         axes.set_ylim(0, 1.05 * top)
-        _dress(
-            axes, f"{name}: the same along the passes", "first contact along the feed / mm", "spacing / mm"
-        )
-    return _png(figure)
+        dress(axes, f"{name}: the same along the passes", "first contact along the feed / mm", "spacing / mm")
+    return png_bytes(figure)
 
 
 def _spacing_of(plan: Plan, wanted: Plan) -> Floats:
@@ -93,7 +91,7 @@ def _map(
     axes.plot(*first[~kept, :2].T, ".", color=MISSED, markersize=2)
     axes.set_aspect("equal")
     share = f"{np.count_nonzero(kept)} of {len(kept)}"
-    _dress(axes, f"{name}: {share} within 1 % (others: red)", "x / mm", "y / mm")
+    dress(axes, f"{name}: {share} within 1 % (others: red)", "x / mm", "y / mm")
     bar = figure.add_axes((0.395, bottom + 0.02, 0.012, 0.38))
     bar.imshow(
         np.linspace(0, top, 64)[:, None], origin="lower", aspect="auto", extent=(0, 1, 0, top), cmap=COLOURS
@@ -119,20 +117,3 @@ def _figure(title: str) -> Figure:
     FigureCanvasAgg(figure)
     figure.text(0.02, 0.97, title, fontsize=14, weight="bold", va="center")
     return figure
-
-
-def _dress(axes: Any, title: str, x: str, y: str) -> None:
-    axes.set_title(title, fontsize=10, loc="left")
-    axes.set_xlabel(x, fontsize=9)
-    axes.set_ylabel(y, fontsize=9)
-    axes.tick_params(labelsize=8)
-    axes.grid(color="#E6E6E6", linewidth=0.6)
-    axes.set_axisbelow(True)
-    for side in ("top", "right"):
-        axes.spines[side].set_visible(False)
-
-
-def _png(figure: Figure) -> bytes:
-    png = io.BytesIO()
-    figure.savefig(png, format="png", dpi=DPI)
-    return png.getvalue()

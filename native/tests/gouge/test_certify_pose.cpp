@@ -115,8 +115,9 @@ TEST(CertifyPose, AnExhaustedBudgetIsUndecidedNotFree) {
   EXPECT_EQ(c.lo, -kInfinity);
 }
 
-// A small patch that the ring, taken as a whole, touches on its inner side, where the flat bottom is 0.03 mm lower: a cell
-// that the ring proves is not done with before the rest of the body proves it too, whatever is searched in it.
+// A small patch that the ring, taken as a whole, touches on its inner side, where the flat bottom is 0.03 mm
+// lower: a cell that the ring proves is not done with before the rest of the body proves it too, whatever is
+// searched in it.
 TEST(CertifyPose, ACellThatIsSearchedForARingContactIsProvenAgainstTheBottomToo) {
   const Tool tool{6.7, 6.0, 0, 40, {}};
   const double slope = 0.1, half = 0.4, bend = 0.05;
@@ -127,8 +128,7 @@ TEST(CertifyPose, ACellThatIsSearchedForARingContactIsProvenAgainstTheBottomToo)
     for (int j : {-1, 0, 1})
       poles.push_back(touch + a * along + Vec3(0, j * half, 0) +
                       (j == 0 ? bend : -bend) * half * half * normal);
-  const SurfaceModel model =
-      testing::one_face(BSplineSurface(1, 2, {0, 0, 1, 1}, {0, 0, 0, 1, 1, 1}, poles));
+  const SurfaceModel model = testing::one_face(BSplineSurface(1, 2, {0, 0, 1, 1}, {0, 0, 0, 1, 1, 1}, poles));
   const ToolPose pose{Vec3::Zero(), Vec3::UnitZ()};
   ASSERT_LT(signed_distance(tool, pose, touch), -0.02);
   CertifyOptions options;

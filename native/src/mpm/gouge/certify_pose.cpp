@@ -133,8 +133,8 @@ class Search {
       ++result_.cells;
       double lower = ring.lower[lane], center = ring.center[lane];
       bool is_open = ring.open >> lane & 1;
-      // What the ring does not prove is split whatever the rest of the body says; what it proves may be done with,
-      // be it open for a search, and then the rest has to be proven too.
+      // What the ring does not prove is split whatever the rest of the body says; what it proves may be done
+      // with, be it open for a search, and then the rest has to be proven too.
       if (lower >= proven && !(ring.clear_of_pieces >> lane & 1)) {
         const ClearanceBound::Answer rest = bound_.pieces(get_lane(cells_of(group), lane), options_.enough);
         lower = std::min(lower, rest.lower), center = std::min(center, rest.center);
