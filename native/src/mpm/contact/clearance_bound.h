@@ -19,18 +19,18 @@ class ClearanceBound {
     double lower;   // mm: no point of the cell has a smaller signed distance from the tool's body
     double center;  // mm: signed distance of the cell's centre point; only as large as it is known to be
   };
-  // The ring alone, to second order, over four cells; see RingKernel::quadratic.
-  void quadratic(const CellBatch& cells, RingQuadratic& answer) const {
-    kernel_.quadratic(frame_, cells, answer);
-  }
-
   // The rest of the body alone; stops refining the bound when it has reached `enough`.
   Answer pieces(const QuadraticCell& cell, double enough) const;
 
-  // The ring, and cheaply the rest of the body, over four cells at once: first order by the cell's radius,
-  // then second order with the tool's signed curvature (docs/methods/exact.md, section "Bound").
-  void four(const CellBatch& cells, const BoundAsk& ask, RingAnswer& answer) const {
-    kernel_.bound(frame_, cells, ask, answer);
+  // The ring, and cheaply the rest of the body, over the cells of two batches at once (they may be the same):
+  // first order by the cell's radius, then second order with the tool's signed curvature
+  // (docs/methods/exact.md, section "Bound").
+  void ring(const CellBatch& first,
+            const CellBatch& second,
+            const BoundAsk& ask,
+            RingAnswer& first_answer,
+            RingAnswer& second_answer) const {
+    kernel_.bound(frame_, first, second, ask, first_answer, second_answer);
   }
 
   // The four quarters of one cell of a batch; their error is the whole's.

@@ -111,7 +111,8 @@ std::optional<Vec2> merging_contact(const Tool& tool,
                                     const Tilt& approach,
                                     const Face& face,
                                     const PatchMinimum& first_contact,
-                                    double curvature) {
+                                    double curvature,
+                                    bool nearby) {
   const Valley valley(tool, approach, face, first_contact);
   if (!valley.usable()) return std::nullopt;
   const double h = kReach * tool.radius();
@@ -126,6 +127,7 @@ std::optional<Vec2> merging_contact(const Tool& tool,
                backward = (before.arrival - curvature) / before.along;
   const double bend = 2 * (forward - backward) / (after.along - before.along);
   const double slope = forward - 0.5 * bend * after.along;
+  if (nearby && !(std::abs(slope) < bend * h)) return std::nullopt;
   const double farthest = std::copysign(kFarthest * h, -slope);
   const double along = bend > 0 && std::abs(slope) < bend * kFarthest * h ? -slope / bend : farthest;
   if (slope * along + 0.5 * bend * along * along > -kNoGain) return std::nullopt;

@@ -13,11 +13,13 @@ namespace mpm {
 // before that limit is a minimum beside 0. Gives the parameters of that minimum as a parabola through three
 // points of the valley sees it, a start for Newton's iteration; none where b has no lower place nearby.
 // Where a border of the face holds P the valley is that border; a corner has none. `curvature`: the curvature
-// limit, radians.
+// limit, radians. `nearby`: only a minimum not farther than a sixteenth of the cutter's radius is wanted; one
+// farther off the judge of the pose sees, as the gap there is no longer all rounding.
 std::optional<Vec2> merging_contact(const Tool& tool,
                                     const Tilt& approach,
                                     const Face& face,
                                     const PatchMinimum& first_contact,
-                                    double curvature);
+                                    double curvature,
+                                    bool nearby);
 
 }  // namespace mpm

@@ -75,6 +75,11 @@ inline Vec2 descent_step(const Derivatives& a, FreeParameters free) {
   return step;
 }
 
+inline bool is_convex(const Derivatives& a, FreeParameters free) {
+  const bool u = !free.u || a.hessian(0, 0) > 0, v = !free.v || a.hessian(1, 1) > 0;
+  return u && v && (!free.u || !free.v || a.hessian.determinant() > 0);
+}
+
 // Slope of the gap along the surface in the free directions (dimensionless: mm of gap a mm of surface).
 inline double free_slope(const Derivatives& a, const SurfacePoint& p, FreeParameters free) {
   const auto along = [&](bool is_free, double g, const Vec3& tangent) {
@@ -109,8 +114,9 @@ class PatchSearch {
       : objective_(objective), patch_(patch), box_(patch.box()) {}
 
   // Runs from (u, v), taken into the patch; the result's value is never greater than the start's
-  // but for kGained a polishing step.
-  PatchMinimum run(double u, double v) const {
+  // but for kGained a polishing step. Where the objective is convex and twice what a step promises leads to
+  // no value under `floor`, the search ends there and then.
+  PatchMinimum run(double u, double v, double floor = kInfinity) const {
     PatchMinimum best;
     best.u = std::clamp(u, box_.u0, box_.u1);
     best.v = std::clamp(v, box_.v0, box_.v1);
@@ -124,6 +130,7 @@ class PatchSearch {
       const FreeParameters free = free_parameters(box_, best.u, best.v, a.gradient);
       best.on_border_u = !free.u && std::abs(a.gradient.x()) * a.gap_rate > kHeld * p.su.norm();
       best.on_border_v = !free.v && std::abs(a.gradient.y()) * a.gap_rate > kHeld * p.sv.norm();
+      if (best.value + a.gradient.dot(descent_step(a, free)) > floor && is_convex(a, free)) break;
       const Vec2 step = bounded_step(best, a, free);
       if (free_slope(a, p, free) <= kParallel && std::abs(a.gradient.dot(step)) <= kGained) break;
       if (std::abs(a.gradient.dot(step)) > kGained) {

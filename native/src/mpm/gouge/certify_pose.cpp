@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <bit>
+#include <optional>
 #include <vector>
 
-#include "mpm/contact/contact_zone.h"
+#include "mpm/contact/clearance_bound.h"
+#include "mpm/contact/lowest_point.h"
 
 namespace mpm {
 namespace {
@@ -14,9 +16,8 @@ constexpr double kFinestCell = 1e-10;     // mm: smaller cells are all rounding
 // Of the cutter's radius: cells from this size down, with a centre this near, are searched for a contact.
 constexpr double kContactCell = 1.0 / 8, kContactGap = 1.0 / 1000;
 constexpr std::size_t kMaxContacts = 8;
-constexpr double kApart = 12;           // cell radii from a known contact that another one may have
-constexpr double kOwn = 2;              // cell radii from a known contact in which it is the cell's own
-constexpr double kZoneCell = 1.0 / 48;  // of the cutter's radius: the cells at a contact that need its zone
+constexpr double kApart = 12;    // cell radii from a known contact that another one may have
+constexpr double kOwn = 2;       // cell radii from a known contact in which it is the cell's own
 constexpr double kDeeper = 1.1;  // after a violation, points less than this much deeper are not looked for
 // Below a leaf its quadratic serves as long as its error is this part of the gap; then Taylor's formula takes
 // over.
@@ -33,8 +34,6 @@ struct Group {
   ParamBox box{};            // quarters: of the four together
   double third = 0;          // quarters: third derivative bound over each
 };
-
-constexpr std::uint8_t kAllLanes = (1 << kLanes) - 1;
 
 std::uint8_t first_lanes(std::size_t count) { return std::uint8_t((1u << count) - 1); }
 
@@ -57,19 +56,11 @@ struct Cell {
   double radius, error;  // mm
 };
 
-// A point where the surface comes nearest to the ring, inside the tool or not.
-struct Contact {
-  PatchMinimum lowest;
-  const CellTree::Node* node;  // one of its patch
-  bool zone_tried = false;
-};
-
 // Kept from call to call for its memory only.
 struct Workspace {
   std::vector<Group> stack;
   std::vector<CellBatch> arena;
-  std::vector<ContactZone> zones;
-  std::vector<Contact> contacts;
+  std::vector<Vec3> contacts;
 };
 
 class Search {
@@ -86,12 +77,11 @@ class Search {
         options_(options),
         stack_(workspace.stack),
         arena_(workspace.arena),
-        zones_(workspace.zones),
         contacts_(workspace.contacts) {}
 
   Certificate run() {
     result_.lo = options_.enough;
-    stack_.clear(), zones_.clear(), contacts_.clear();
+    stack_.clear(), contacts_.clear();
     for (std::uint32_t i = 0; i < tree_.roots().size(); i += kLanes)
       stack_.push_back({Group::Kind::roots,
                         first_lanes(std::min<std::size_t>(kLanes, tree_.roots().size() - i)),
@@ -100,9 +90,17 @@ class Search {
                         i / kLanes});
     while (!stack_.empty()) {
       if (result_.cells >= options_.budget) return give_up();
-      const Group group = stack_.back();
-      stack_.pop_back();
-      if (!settle(group)) return result_;
+      const Group group = pop();
+      // Whatever lies above it in the arena belonged to groups that are done: the stack is last in, first
+      // out.
+      if (group.kind == Group::Kind::quarters) arena_used_ = group.batch + 1;
+      const bool alone = stack_.empty();
+      const Group other = alone ? group : pop();
+      const BoundAsk ask = what_to_ask();
+      RingAnswer ring, other_ring;
+      bound_.ring(cells_of(group), cells_of(other), ask, ring, other_ring);
+      if (!settle(group, ask.proven, ring)) return result_;
+      if (!alone && !settle(other, ask.proven, other_ring)) return result_;
     }
     result_.verdict = result_.hi < -options_.tolerance    ? Verdict::gouge
                       : result_.lo >= -options_.tolerance ? Verdict::free
@@ -117,20 +115,29 @@ class Search {
                                                  : arena_[group.batch];
   }
 
-  // Bounds the cells of a group and goes on with those that stay open. False ends the search: a violation was
-  // found and nothing more is asked.
-  bool settle(const Group& group) {
-    // Whatever lies above it in the arena belonged to groups that are done: the stack is last in, first out.
-    if (group.kind == Group::Kind::quarters) arena_used_ = group.batch + 1;
+  Group pop() {
+    const Group group = stack_.back();
+    stack_.pop_back();
+    return group;
+  }
+
+  BoundAsk what_to_ask() const {
     // What is deeper than the deepest point known may be left open: that point is the answer.
     const double proven = std::min(-options_.tolerance, deep_enough_);
     const double searched =
         result_.cells <= options_.sharp_budget ? std::min(-options_.sharpness, deep_enough_) : proven;
-    RingAnswer ring;
-    bound_.four(cells_of(group), {options_.enough, proven, searched}, ring);
-    for (unsigned left = group.cells; left; left &= left - 1) {
+    return {options_.enough, proven, searched};
+  }
+
+  // Bounds the cells of a group and goes on with those that stay open. False ends the search: a violation was
+  // found and nothing more is asked.
+  bool settle(const Group& group, double proven, const RingAnswer& ring) {
+    result_.cells += std::uint64_t(std::popcount(group.cells));
+    const unsigned settled = group.cells & ring.clear_of_pieces & ~ring.open;
+    for (int lane = 0; lane < kLanes; ++lane)
+      result_.lo = settled >> lane & 1 ? std::min(result_.lo, ring.lower[lane]) : result_.lo;
+    for (unsigned left = group.cells & ~settled; left; left &= left - 1) {
       const int lane = std::countr_zero(left);
-      ++result_.cells;
       double lower = ring.lower[lane], center = ring.center[lane];
       bool is_open = ring.open >> lane & 1;
       // What the ring does not prove is split whatever the rest of the body says; what it proves may be done
@@ -172,24 +179,15 @@ class Search {
             cells.error[lane]};
   }
 
-  // A cell that its bound did not settle: looks at its centre, asks the zones, looks for a contact in it,
-  // splits it.
+  // A cell that its bound did not settle: looks at its centre, looks for a contact in it, splits it.
   bool open(const Cell& cell) {
     if (!look_at_center(cell)) return false;
-    if (in_zone(cell)) return true;
     if (may_hold_contact(cell)) {
-      Contact* contact = nearest_contact(cell);
-      const bool is_new = !contact || distance(*contact, cell) > kApart * cell.radius;
-      if (is_new && contacts_.size() < kMaxContacts) {
-        if (!look_for_contact(cell)) return false;
-        contact = &contacts_.back();
-        // Its only minimum was searched, wherever that led.
-        if (is_proven(cell)) return note(cell);
-      }
-      if (contact && distance(*contact, cell) < kOwn * cell.radius) {
-        if (is_proven(cell)) return note(cell);
-        if (cell.radius < kZoneCell * tool_.radius() && add_zone(*contact) && in_zone(cell)) return true;
-      }
+      const double apart = to_nearest_contact(cell);
+      const bool is_new = apart > kApart * cell.radius && contacts_.size() < kMaxContacts;
+      if (is_new && !look_for_contact(cell)) return false;
+      // What minimum it may have was searched, wherever that led.
+      if ((is_new || apart < kOwn * cell.radius) && is_proven(cell)) return note(cell);
     }
     if (cell.radius < kFinestCell) return note(cell);
     split(cell);
@@ -205,7 +203,7 @@ class Search {
   }
 
   bool may_hold_contact(const Cell& cell) const {
-    return !cell.trimmed && cell.node.patch && cell.a == cell.a &&
+    return !cell.trimmed && cell.node.patch && downhill_from(cell) &&
            cell.radius < kContactCell * tool_.radius() &&
            std::abs(cell.center) < kContactGap * tool_.radius();
   }
@@ -235,52 +233,43 @@ class Search {
     return false;
   }
 
-  bool in_zone(const Cell& cell) {
-    for (const ContactZone& zone : zones_)
-      if (zone.contains(cell.node.patch, cell.box)) {
-        result_.lo = std::min(result_.lo, zone.lower);
-        return true;
-      }
-    return false;
-  }
-
-  double distance(const Contact& contact, const Cell& cell) const {
-    const auto& center = cells_of(cell.group).term[CellBatch::center];
-    return (contact.lowest.s - Vec3(center[0][cell.lane], center[1][cell.lane], center[2][cell.lane])).norm();
-  }
-
-  Contact* nearest_contact(const Cell& cell) {
-    Contact* nearest = nullptr;
+  // mm, from the cell's centre
+  double to_nearest_contact(const Cell& cell) const {
+    const auto& at = cells_of(cell.group).term[CellBatch::center];
+    const Vec3 center(at[0][cell.lane], at[1][cell.lane], at[2][cell.lane]);
     double least = kInfinity;
-    for (Contact& contact : contacts_)
-      if (const double d = distance(contact, cell); d < least) least = d, nearest = &contact;
-    return nearest;
+    for (const Vec3& contact : contacts_) least = std::min(least, (contact - center).norm());
+    return least;
+  }
+
+  // Where to start downhill: where the cell's quadratic is least, or on the border of its patch, against
+  // which the surface may come nearest with a slope.
+  static std::optional<Vec2> downhill_from(const Cell& cell) {
+    const ParamBox& box = cell.box;
+    const double u = box.u_mid(), v = box.v_mid();
+    if (cell.a == cell.a)
+      return Vec2(u + cell.a * 0.5 * (box.u1 - box.u0), v + cell.b * 0.5 * (box.v1 - box.v0));
+    const ParamBox& patch = cell.node.patch->box();
+    const bool on_u = box.u0 <= patch.u0 || box.u1 >= patch.u1,
+               on_v = box.v0 <= patch.v0 || box.v1 >= patch.v1;
+    if (!on_u && !on_v) return std::nullopt;
+    return Vec2(box.u0 <= patch.u0   ? box.u0
+                : box.u1 >= patch.u1 ? box.u1
+                                     : u,
+                box.v0 <= patch.v0   ? box.v0
+                : box.v1 >= patch.v1 ? box.v1
+                                     : v);
   }
 
   // Goes downhill from where the cell's quadratic is least; false when it meets a violation that ends the
   // search.
   bool look_for_contact(const Cell& cell) {
-    const ParamBox& box = cell.box;
-    const double u = box.u_mid() + cell.a * 0.5 * (box.u1 - box.u0);
-    const double v = box.v_mid() + cell.b * 0.5 * (box.v1 - box.v0);
-    const PatchMinimum lowest = lowest_point(tool_, pose_, *cell.node.patch, u, v);
-    contacts_.push_back({lowest, &cell.node});
-    if (!tree_.model().faces()[cell.node.face].trim.contains(lowest.u, lowest.v)) {
-      contacts_.back().zone_tried = true;
-      return true;
-    }
+    const Vec2 from = *downhill_from(cell);
+    const PatchMinimum lowest =
+        lowest_point(tool_, pose_, *cell.node.patch, from.x(), from.y(), -options_.sharpness);
+    contacts_.push_back(lowest.s);
+    if (!tree_.model().faces()[cell.node.face].trim.contains(lowest.u, lowest.v)) return true;
     return look_at(false, 0, {cell.node.face, lowest.u, lowest.v, lowest.s, lowest.value});
-  }
-
-  // False where there is none.
-  bool add_zone(Contact& contact) {
-    if (contact.zone_tried || contact.lowest.value < -options_.sharpness) return false;
-    contact.zone_tried = true;
-    const auto zone =
-        contact_zone(tool_, pose_, bound_, *contact.node->patch, contact.node->patch_third, contact.lowest);
-    if (!zone || zone->lower < -options_.sharpness) return false;
-    zones_.push_back(*zone);
-    return true;
   }
 
   void split(const Cell& cell) {
@@ -333,8 +322,8 @@ class Search {
   std::vector<CellBatch>& arena_;
   std::uint32_t arena_used_ = 0;
   double deep_enough_ = kInfinity;  // mm
-  std::vector<ContactZone>& zones_;
-  std::vector<Contact>& contacts_;
+  // Points where the surface comes nearest to the ring, inside the tool or not.
+  std::vector<Vec3>& contacts_;
 };
 
 }  // namespace

@@ -20,6 +20,7 @@ constexpr std::uint32_t kSharpBudget = 4000;  // cells; a ring lying on the surf
 constexpr double kGougeTolerance = 1e-3;      // mm
 constexpr double kCellBudget = 200'000;
 constexpr int kMaxRounds = 64;           // contacts tried before a position is given up
+constexpr int kPointRounds = 16;         // of these, in which a point's own arrival may be taken
 constexpr double kFirstBackStep = 1e-6;  // mm or rad, doubled until the body is clear
 constexpr double kMostBackSteps = 1e3;
 constexpr int kBisections = 50;
@@ -180,9 +181,11 @@ double Exact::body_arrival(const Approach& approach, double x, const Vec3& s) co
 }
 
 // Brings x down to the first touch: the judge looks at the pose at x; where it finds surface inside the tool,
-// that point's own first arrival is the next x, until it finds none. The last certificate belongs to the pose
-// at x. What touches the rest of the body is taken at its deepest point each time and only to half the
-// tolerance. `first`: the contact that the motion keeps, if it keeps one.
+// the first arrival near that point is the next x, until it finds none. The last certificate belongs to the
+// pose at x. Where faces meet, their borders differ by what their polygons may, and the nearest arrival may
+// be on the wrong one: then the point's own arrival is taken, a few times; what is left is good to half the
+// tolerance. So is what touches the rest of the body, at its deepest point each time. `first`: the contact
+// that the motion keeps, if it keeps one.
 template <class Approach>
 Certificate Exact::first_touch(
     const Approach& approach, const Touch* first, double& x, Touch& touch, Counters& counters) const {
@@ -206,8 +209,16 @@ Certificate Exact::first_touch(
       touch = ring;
       continue;
     }
+    const double own = approach.arrival(w.s);
+    if (is_other && own < x - kNoGain && round < kPointRounds) {
+      x = own;
+      touch = ring;  // held by the same border
+      touch.at.value = x, touch.at.u = w.u, touch.at.v = w.v, touch.at.s = w.s;
+      continue;
+    }
     options.stop_at_violation = false;
     options.sharpness = options.tolerance / 2;
+    if (w.distance >= -options.sharpness) continue;
     const double body = body_arrival(approach, x, w.s);
     if (!(body < x)) continue;
     x = body;
@@ -233,7 +244,7 @@ void Exact::finish(Placement& placement, const Certificate& certificate) const {
 void Exact::look_beside(
     const Tilt& approach, const Touch& first, double curvature, Touch& second, Counters& counters) const {
   const Face& face = model_.faces()[first.face];
-  const auto start = merging_contact(tool_, approach, face, first.at, curvature);
+  const auto start = merging_contact(tool_, approach, face, first.at, curvature, second.found());
   if (!start) return;
   const Touch touch = refine(approach, first.face, start->x(), start->y(), counters);
   if (touch.at.value < second.at.value && !same_contact(touch, first)) second = touch;

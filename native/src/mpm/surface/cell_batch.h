@@ -4,6 +4,7 @@
 namespace mpm {
 
 inline constexpr int kLanes = 4;
+inline constexpr unsigned kAllLanes = (1u << kLanes) - 1;  // a bit a lane
 
 // Lane k of every array is one QuadraticCell (quadratic_cell.h). Plain numbers only: the kernels that read it
 // are compiled for several instruction sets and must not share inline functions with the rest.

@@ -53,9 +53,6 @@ Level leaves(const Face& face, std::uint32_t index, double leaf_size) {
   const std::vector<double> us = split_breaks(face.surface, true, leaf_size);
   const std::vector<double> vs = split_breaks(face.surface, false, leaf_size);
   Level level{us.size() - 1, vs.size() - 1, {}};
-  std::vector<double> patch_third;
-  for (const BezierPatch& patch : face.surface.patches())
-    patch_third.push_back(third_derivative_bound(patch));
   level.nodes.resize(level.nu * level.nv);
   for (std::size_t i = 0; i < level.nu; ++i)
     for (std::size_t j = 0; j < level.nv; ++j) {
@@ -71,7 +68,6 @@ Level leaves(const Face& face, std::uint32_t index, double leaf_size) {
       node.face = index;
       node.patch = &patch;
       node.third = third_derivative_bound(part);
-      node.patch_third = patch_third[std::size_t(&patch - face.surface.patches().data())];
       level.nodes[i * level.nv + j] = node;
     }
   return level;

@@ -22,7 +22,6 @@ class CellTree {
     // Of a leaf only.
     const BezierPatch* patch = nullptr;
     double third = 0;        // third_derivative_bound over the leaf
-    double patch_third = 0;  // the same over its whole patch
     QuadraticCell cell;
   };
 

@@ -1,0 +1,14 @@
+// The point of a patch that is nearest to the ring, or deepest in it.
+#pragma once
+
+#include "mpm/contact/patch_search.h"
+#include "mpm/tool/tool.h"
+
+namespace mpm {
+
+// Least distance of the ring from a patch near (u, v): Newton's iteration on the signed distance at a fixed
+// pose. What cannot lead under `floor` (mm) is not followed to the end.
+PatchMinimum lowest_point(
+    const Tool& tool, const ToolPose& pose, const BezierPatch& patch, double u, double v, double floor);
+
+}  // namespace mpm
