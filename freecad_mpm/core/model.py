@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 from .. import _core
 from .errors import blame
@@ -25,6 +26,11 @@ class Scene:
     check: Sequence[FaceArrays]
     model: _core.SurfaceModel
     tool: _core.Tool
+
+    @cached_property
+    def cells(self) -> _core.CellTree:
+        """What all proofs about this model and tool work on; made when it is first asked for."""
+        return _core.CellTree(self.model, self.tool)
 
 
 def build_scene(job: Job, faces: Sequence[FaceArrays]) -> Scene:

@@ -59,11 +59,11 @@ def prove(
     points: (N, 2) where in plan the positions stand. place: gives the positions over further points (M, 2) with the
     spins (M,) in degrees."""
     rows = _Rows(points, positions, np.full(len(points), np.nan))
-    open_moves = neighbours(positions)
+    open_moves, depth_mm = neighbours(positions), cut_depth_mm(job.tolerance, PROVEN)
     cells = 0
     for depth in range(DEPTH + 1):
         found = certify(
-            job, scene, rows.positions.tip, rows.positions.axis, np.flatnonzero(open_moves), stages
+            job, scene, rows.positions.tip, rows.positions.axis, np.flatnonzero(open_moves), depth_mm, stages
         )
         rows.clearance[open_moves] = np.where(found["verdict"] == "free", found["lo"], np.nan)
         cells += int(found["cells"].sum())
@@ -76,22 +76,28 @@ def prove(
 
 
 def certify(
-    job: Job, scene: Scene, tip: Floats, axis: Floats, ends: Integers, stages: Stages
+    job: Job,
+    scene: Scene,
+    tip: Floats,
+    axis: Floats,
+    ends: Integers,
+    depth_mm: Floats | float,
+    stages: Stages,
 ) -> dict[str, Any]:
-    """Certificates of the moves that lead to the rows `ends` (K,) of tip, axis (N, 3) from the rows before them:
-    lo, hi (K,) mm, verdict (K,) names, cells (K,). A tip that is off its line takes as much off the clearance.
-    """
+    """Certificates of the moves that lead to the rows `ends` (K,) of tip, axis (N, 3) from the rows before them, which
+    may cut in by depth_mm, one or (K,): lo, hi (K,) mm, verdict (K,) names, cells (K,). A tip that is off its line
+    takes as much off the clearance."""
     tip_off = control_tip_deviation_mm(job)
     found = stages.run_native(
         STAGE,
         _core.certify_motions,
-        scene.model,
+        scene.cells,
         scene.tool,
         tip[ends - 1],
         axis[ends - 1],
         tip[ends],
         axis[ends],
-        tolerance_mm=cut_depth_mm(job.tolerance, PROVEN) - tip_off,
+        tolerance_mm=depth_mm - tip_off,
         axis_deviation_deg=control_deviation_deg(job),
     )
     return {**found, "lo": found["lo"] - tip_off, "verdict": np.array(_core.VERDICTS)[found["verdict"]]}

@@ -54,8 +54,9 @@ class Path:
     axis: Floats  # (M, 3)
     position: Integers  # (M,), index of the position the move ends in, -1: none
     pass_index: Integers  # (M,)
-    clearance: Floats  # (M,), least clearance along the move: the proven bound of a proven cut, else sampled
+    clearance: Floats  # (M,), mm, least clearance along the move: proven, or of rapids and the others sampled
     blocked: Flags  # (M,): no free way was found
+    proven: Flags  # (M,): cuts in no deeper than it may, with all that the control may be off
 
     def __len__(self) -> int:
         return len(self.kind)

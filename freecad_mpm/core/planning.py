@@ -18,6 +18,7 @@ from .linking import link_options
 from .model import Scene, build_scene
 from .part_file import read_part
 from .plan import Flags, Floats, Integers, Path, Plan, Positions
+from .rapids import with_rapids_proven
 from .rewind import fit_to_machine
 from .sections import suggestion
 from .shop import find_shop, make_program
@@ -57,7 +58,8 @@ def plan(
     placed = place_and_prove(job, scene, footprint, stages)
     positions = placed.positions
     path = link(job, scene, positions, placed.cuts, stages)
-    path, joints = fit_to_machine(job, shop, scene, path, stages)
+    path, joints = fit_to_machine(job, shop, scene, path, guarantee_of(job), stages)
+    path = with_rapids_proven(job, shop, scene, path, joints, stages)
     made = make_program(job, shop, path, joints, scene.model.bounds(), stages)
     positions, path = positions_in_part(positions, scene.frame), path_in_part(path, scene.frame)
     verdict = judge(positions, path, made.troubles, job.tolerance, guarantee_of(job))
@@ -192,6 +194,7 @@ def make_positioner(job: Job, scene: Scene, stages: Stages) -> _core.Positioner:
             tilt_max_deg=method.tilt_max_deg,
             spin_deg=method.spin_deg,
             options=method_options(job),
+            cells=scene.cells,
         )
 
     with blame(f"{job.source}: [{method.table}]"):
@@ -259,13 +262,13 @@ def link(job: Job, scene: Scene, positions: Positions, cuts: Floats | None, stag
         linked = stages.run_native(
             "path",
             _core.link_passes,
-            scene.model,
+            scene.cells,
             scene.tool,
             positions.tip,
             positions.axis,
             positions.pass_index,
             positions.usable,
-            options=link_options(job),
+            options=link_options(job, guarantee_of(job)),
             cut_clearance=cuts,
         )
     linked["kind"] = np.array(_core.MOVE_KINDS)[linked["kind"]]

@@ -17,7 +17,7 @@ from .plan import UNUSABLE, Integers, Path, Positions
 from .rewind import rewinds
 from .shop import Made
 from .statement import not_cut, statement
-from .verdict import PROVEN, Verdict, digging, gouging, undecided
+from .verdict import PROVEN, Verdict, digging, gouging, undecided, unproven_links
 from .version import __version__
 
 Facts = dict[str, Any]
@@ -40,7 +40,9 @@ def facts(
     return {
         "version": __version__,
         "verdict": {"good": verdict.good, "line": verdict.line, "troubles": list(verdict.troubles)},
-        "warnings": warnings(job, machine, positions, path, verdict.guarantee) + _slowed(machine, path, made),
+        "warnings": warnings(job, machine, positions, path, verdict.guarantee)
+        + unproven(path)
+        + _slowed(machine, path, made),
         "job": _job_facts(job),
         "positions": _position_facts(job, positions, verdict.guarantee),
         "worst_position": _worst_position(positions),
@@ -54,8 +56,9 @@ def facts(
 
 def warnings(job: Job, machine: Machine, positions: Positions, path: Path, guarantee: str) -> list[str]:
     """What the reader must know although it does not make the plan bad."""
-    what = "links" if guarantee == PROVEN else "clearances"
-    found = [f"{what} are sampled: no proof that nothing between the samples is cut"]
+    found = []
+    if guarantee != PROVEN:
+        found.append("positions and cuts are sampled: no proof that nothing between the samples is cut")
     if not job.tool.shank and not job.tool.holder:
         found.append("the tool has no shank and no holder: only the flutes are kept clear of the part")
     if machine.unconfirmed:
@@ -76,6 +79,29 @@ def warnings(job: Job, machine: Machine, positions: Positions, path: Path, guara
     if gaps:
         found.append(f"{gaps} moves between neighbours of a pass are not cut: the tool retracts there")
     return found
+
+
+def unproven(path: Path) -> list[str]:
+    """The links that nobody could prove, with what is known of their clearance."""
+    links = np.flatnonzero(unproven_links(path)).tolist()
+    if not links:
+        return []
+    named = [
+        f"{path.kind[move]} {_place(path, move)} (least clearance sampled {path.clearance[move]:.4f} mm)"
+        for move in links[:LISTED_POSITIONS]
+    ]
+    more = ", …" if len(links) > LISTED_POSITIONS else ""
+    return [f"{len(links)} links are not proven free: {', '.join(named)}{more}"]
+
+
+def _place(path: Path, move: int) -> str:
+    """Words for the position that a link leaves or makes for; the pass where there is none."""
+    named = path.position >= 0
+    if path.kind[move] == "retract":
+        before = np.flatnonzero(named[:move])
+        return f"from position {path.position[before[-1]]}" if len(before) else "at the start"
+    after = np.flatnonzero(named[move:])
+    return f"to position {path.position[move + after[0]]}" if len(after) else "at the end"
 
 
 def _slowed(machine: Machine, path: Path, made: Made) -> list[str]:
@@ -162,6 +188,7 @@ def _path_facts(job: Job, positions: Positions, path: Path, guarantee: str) -> F
         "cuts_guarantee": guarantee,
         "moves_not_cut": not_cut(positions, path),
         "blocked_moves": int(np.count_nonzero(path.blocked)),
+        "links_not_proven": np.flatnonzero(unproven_links(path)).tolist(),
     }
 
 
@@ -256,7 +283,8 @@ def _path_lines(path: Facts) -> list[str]:
         what = "at least" if path["cuts_guarantee"] == PROVEN else "sampled, no proof:"
         lines.append(
             f"Clearance of the cuts between their positions: {what} {path['worst_cut_clearance_mm']:.6f} mm; "
-            f"{path['cuts_too_deep']} cuts too deep, {path['blocked_moves']} moves blocked"
+            f"{path['cuts_too_deep']} cuts too deep, {path['blocked_moves']} moves blocked, "
+            f"{len(path['links_not_proven'])} links not proven"
         )
     return lines
 

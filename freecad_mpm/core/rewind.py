@@ -30,17 +30,17 @@ NO_POSITION = -1
 
 
 def fit_to_machine(
-    job: Job, shop: Shop, scene: Scene, path: Path, stages: Stages
+    job: Job, shop: Shop, scene: Scene, path: Path, guarantee: str, stages: Stages
 ) -> tuple[Path, MachinePath]:
     """The machine's joints along the path, all in the set-up frame, and the path with the retracts that they need.
-    What the machine cannot do all the same is a status of its moves."""
+    guarantee: of the positions. What the machine cannot do all the same is a status of its moves."""
     joints = stages.run("machine", move_machine, job, shop, path)
     for _ in range(ROUNDS):
         forced = forced_cuts(path, joints)
         if not len(forced):
             break
         seams = [seam(shop.machine, path, joints, int(move)) for move in forced]
-        path = interrupted(job, scene, path, forced, seams, stages)
+        path = interrupted(job, scene, path, forced, seams, link_options(job, guarantee), stages)
         joints = stages.run("machine", move_machine, job, shop, path)
     return path, joints
 
@@ -74,13 +74,19 @@ def seam(machine: Machine, path: Path, joints: MachinePath, move: int) -> float:
 
 
 def interrupted(
-    job: Job, scene: Scene, path: Path, cuts: Integers, seams: list[float], stages: Stages
+    job: Job,
+    scene: Scene,
+    path: Path,
+    cuts: Integers,
+    seams: list[float],
+    options: _core.LinkOptions,
+    stages: Stages,
 ) -> Path:
     """The path with each of these cuts interrupted a fraction of it from its start, there a way up to the safe plane
     and down again. The rapid down is where the axes turn: at its upper end, with the tip held."""
     with blame(f"{job.source}: [{job.link.table}]"):
         ways = [
-            stages.run_native("path", _interruption, job, scene, path, int(move), where)
+            stages.run_native("path", _interruption, scene, path, int(move), where, options)
             for move, where in zip(cuts, seams)
         ]
     at = np.repeat(cuts, [len(way) for way in ways])
@@ -101,31 +107,43 @@ def _pose(path: Path, move: int, fraction: float) -> tuple[Floats, Floats]:
 
 
 def _interruption(
-    job: Job, scene: Scene, path: Path, move: int, fraction: float, *, context: _core.Context
+    scene: Scene,
+    path: Path,
+    move: int,
+    fraction: float,
+    options: _core.LinkOptions,
+    *,
+    context: _core.Context,
 ) -> Path:
     """The first piece of a cut, when there is one, and the way up and down from its end."""
     tip, axis = _pose(path, move, fraction)
-    way = _up_and_down(job, scene, tip, axis, int(path.pass_index[move]), context=context)
+    way = _up_and_down(scene, tip, axis, int(path.pass_index[move]), options, context=context)
     if fraction == 0.0:
         return way
     piece = {"kind": "cut", "tip": tip, "axis": axis, "position": NO_POSITION}
-    kept = {name: getattr(path, name)[move] for name in ("pass_index", "clearance", "blocked")}
+    kept = {name: getattr(path, name)[move] for name in ("pass_index", "clearance", "blocked", "proven")}
     first = {name: np.array([value]) for name, value in {**piece, **kept}.items()}
     return Path(**{name: np.concatenate((column, getattr(way, name))) for name, column in first.items()})
 
 
 def _up_and_down(
-    job: Job, scene: Scene, tip: Floats, axis: Floats, pass_index: int, *, context: _core.Context
+    scene: Scene,
+    tip: Floats,
+    axis: Floats,
+    pass_index: int,
+    options: _core.LinkOptions,
+    *,
+    context: _core.Context,
 ) -> Path:
     """From a pose to the safe plane and back to it: the link between two positions that are one and the same."""
     linked = _core.link_passes(
-        scene.model,
+        scene.cells,
         scene.tool,
         np.array([tip, tip]),
         np.array([axis, axis]),
         np.array([0, 1]),
         np.ones(2, dtype=bool),
-        options=link_options(job),
+        options=options,
         context=context,
     )
     linked["kind"] = np.array(_core.MOVE_KINDS)[linked["kind"]]

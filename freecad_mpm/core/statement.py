@@ -7,7 +7,7 @@ import numpy as np
 from .job import Tolerance
 from .motions import neighbours
 from .plan import Path, Positions
-from .verdict import PROVEN, cut_depth_mm, digging, gouging, undecided
+from .verdict import PROVEN, cut_depth_mm, digging, gouging, undecided, unproven_links
 
 MICROMETRES = 1000.0  # in a millimetre
 
@@ -29,13 +29,25 @@ def statement(positions: Positions, path: Path, tolerance: Tolerance, guarantee:
     sentence = (
         f"free to {_micrometres(tolerance.gouge_mm)} at {_of(good, usable, 'positions')}, "
         f"within {_micrometres(cut_depth_mm(tolerance, guarantee))} on {_of(good_cuts, cuts, 'cuts')} between them, "
-        f"{'proven' if guarantee == PROVEN else 'sampled: no proof'}"
+        f"{'' if guarantee == PROVEN else 'sampled: no proof; '}{_links(path, cut_depth_mm(tolerance, guarantee))}"
     )
     gaps = not_cut(positions, path)
     return (
         sentence
         + (f"; {gaps} moves between neighbours are not cut" if gaps else "")
         + (f"; {left_out} positions are left out" if left_out else "")
+    )
+
+
+def _links(path: Path, depth_mm: float) -> str:
+    """What is proven of the moves that do not cut, for every method."""
+    rapid, bad = path.kind == "rapid", unproven_links(path)
+    rapid[:1] = False  # where the path begins, nothing leads there
+    slow = (path.kind != "rapid") & (path.kind != "cut")
+    counts = [(int(np.count_nonzero(which & ~bad)), int(np.count_nonzero(which))) for which in (slow, rapid)]
+    return (
+        f"within {_micrometres(depth_mm)} on {_of(*counts[0], 'plunges and retracts')}, "
+        f"clear on {_of(*counts[1], 'rapids')}, proven"
     )
 
 

@@ -27,7 +27,9 @@ class Verdict:
     @property
     def line(self) -> str:
         basis = (
-            "positions and cuts proven, links sampled" if self.guarantee == PROVEN else "sampled: no proof"
+            "positions, cuts and links proven"
+            if self.guarantee == PROVEN
+            else "positions and cuts sampled: no proof; links proven"
         )
         return f"{'good' if self.good else 'NOT GOOD: ' + '; '.join(self.troubles)} ({basis})"
 
@@ -58,6 +60,11 @@ def digging(path: Path, tolerance: Tolerance, guarantee: str) -> Flags:
     return (path.kind == "cut") & ~(path.clearance >= -cut_depth_mm(tolerance, guarantee))
 
 
+def unproven_links(path: Path) -> Flags:
+    """(M,): plunges, retracts and rapids of which nobody knows that they cut in no deeper than they may."""
+    return (path.kind != "cut") & ~path.proven
+
+
 def judge(
     positions: Positions, path: Path, machine_troubles: Sequence[str], tolerance: Tolerance, guarantee: str
 ) -> Verdict:
@@ -68,6 +75,7 @@ def judge(
         "positions are undecided": undecided(positions, tolerance, guarantee),
         f"cuts go deeper than {depth:g} mm between positions": digging(path, tolerance, guarantee),
         "moves run into the part": path.blocked,
+        "links are not proven free": unproven_links(path) & ~path.blocked,
     }
     found = [f"{np.count_nonzero(which)} {what}" for what, which in counts.items() if which.any()]
     return Verdict(guarantee, (*found, *machine_troubles))

@@ -1,4 +1,4 @@
-"""A second opinion on a CL file, ours or not: every pose and every cut against all faces of the job."""
+"""A second opinion on a CL file, ours or not: every pose and every move against all faces of the job."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from .. import _core
 from .cl_file import Moves
 from .job import Job
 from .motions import certify
-from .plan import Flags, Floats, Integers, Names
+from .plan import Flags, Floats, Names
 from .planning import prepare
 from .stages import Stages
 from .verdict import PROVEN, cut_depth_mm
@@ -20,14 +20,13 @@ from .verdict import PROVEN, cut_depth_mm
 class Verification:
     """`clearance` (M,): least sampled distance of the tool from all faces at each pose, mm, negative when it cuts in.
 
-    `cuts` (K,): rows that a cut leads to from the row before; `cut_verdict` (K,): free, gouge or undecided within the
-    chord tolerance."""
+    `verdict` (M - 1,) of the moves that lead to all rows but the first: free, gouge or undecided; within the chord
+    tolerance, of a rapid within nothing."""
 
     job: Job
     moves: Moves
     clearance: Floats
-    cuts: Integers
-    cut_verdict: Names
+    verdict: Names
 
     @property
     def too_deep(self) -> Flags:
@@ -41,7 +40,7 @@ class Verification:
 
     @property
     def good(self) -> bool:
-        return not self.too_deep.any() and bool((self.cut_verdict == "free").all())
+        return not self.too_deep.any() and bool((self.verdict == "free").all())
 
     @property
     def lines(self) -> list[str]:
@@ -51,21 +50,24 @@ class Verification:
         worst = int(np.argmin(self.clearance))
         verdict = "good" if self.good else "NOT GOOD"
         return [
-            f"Verdict: {verdict} (cuts proven, poses sampled; links are judged at their poses only)",
+            f"Verdict: {verdict} (moves proven, poses sampled)",
             f"{len(self.moves)} poses, {gouging} cut in deeper than {tolerance:g} mm",
             f"Worst clearance: {self.clearance[worst]:.6f} mm {self._where(worst)}",
-            *self._cut_lines(),
+            *self._move_lines("cuts", self.moves.kind == "cut"),
+            *self._move_lines("links", self.moves.kind != "cut"),
         ]
 
-    def _cut_lines(self) -> list[str]:
+    def _move_lines(self, name: str, which: Flags) -> list[str]:
+        """Of the moves to these rows."""
+        free, gouge = self.verdict == "free", self.verdict == "gouge"
+        counts = [int(np.count_nonzero(of & which[1:])) for of in (free | ~free, free, gouge, ~free & ~gouge)]
         depth = cut_depth_mm(self.job.tolerance, PROVEN)
-        free, gouge = self.cut_verdict == "free", self.cut_verdict == "gouge"
-        open_ones = int(np.count_nonzero(~free & ~gouge))
         lines = [
-            f"{len(self.cuts)} cuts, {np.count_nonzero(free)} proven free within {depth:g} mm, "
-            f"{np.count_nonzero(gouge)} cut in deeper, {open_ones} undecided"
+            f"{counts[0]} {name}, {counts[1]} proven free within {depth:g} mm (rapids: clear), "
+            f"{counts[2]} cut in deeper, {counts[3]} undecided"
         ]
-        lines += [f"First bad cut: {self._where(int(row))}" for row in self.cuts[~free][:1]]
+        bad = np.flatnonzero(~free & which[1:]) + 1
+        lines += [f"First bad one: {self._where(int(row))}" for row in bad[:1]]
         return lines
 
     def _where(self, row: int) -> str:
@@ -77,18 +79,11 @@ class Verification:
 
 
 def verify(job: Job, moves: Moves, stages: Stages) -> Verification:
-    """Sample the clearance of every pose and certify every cut within the chord tolerance; method, footprint, machine
-    and post of the job are not used."""
+    """Sample the clearance of every pose and certify every move: within the chord tolerance, rapids to be clear.
+    Method, footprint and machine of the job are not used: a rapid turns on the great circle here."""
     scene = prepare(job, None, stages)
     tip, axis = scene.frame.to_setup(moves.tip), scene.frame.direction_to_setup(moves.axis)
     clearance = stages.run_native("judge", _core.sampled_clearance, scene.model, scene.tool, tip, axis)
-    cuts = np.flatnonzero(cutting(moves))
-    found = certify(job, scene, tip, axis, cuts, stages)
-    return Verification(job, moves, clearance, cuts, found["verdict"])
-
-
-def cutting(moves: Moves) -> Flags:
-    """(M,): a cut leads to the row from the one before."""
-    result = moves.kind == "cut"
-    result[:1] = False
-    return np.asarray(result)
+    depth_mm = np.where(moves.kind == "rapid", 0.0, cut_depth_mm(job.tolerance, PROVEN))
+    found = certify(job, scene, tip, axis, np.arange(1, len(moves)), depth_mm[1:], stages)
+    return Verification(job, moves, clearance, found["verdict"])

@@ -169,6 +169,7 @@ def _as_path(kind: np.ndarray, tip: np.ndarray, axis: np.ndarray) -> Path:
         pass_index=np.zeros(count, dtype=np.int64),
         clearance=np.full(count, np.nan),
         blocked=np.zeros(count, dtype=bool),
+        proven=np.zeros(count, dtype=bool),
     )
 
 

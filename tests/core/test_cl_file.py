@@ -57,6 +57,7 @@ def path(positions: Positions) -> Path:
         pass_index=positions.pass_index[nearest],
         clearance=np.zeros(8),
         blocked=np.zeros(8, dtype=bool),
+        proven=np.ones(8, dtype=bool),
     )
 
 

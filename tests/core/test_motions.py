@@ -19,6 +19,7 @@ from freecad_mpm.core.motions import CONTROL_SHARE, control_deviation_deg, neigh
 from freecad_mpm.core.plan import Plan
 from freecad_mpm.core.resources import EXAMPLES, TOOLS
 from freecad_mpm.core.stages import Stages
+from freecad_mpm.core.statement import statement
 
 CANCEL_S, SLACK_S = 0.1, 0.4
 
@@ -41,7 +42,7 @@ def certify(
     **options: float,
 ) -> dict[str, np.ndarray]:
     return _core.certify_motions(
-        floor(),
+        _core.CellTree(floor(), TOOL),
         TOOL,
         tips,
         axes,
@@ -101,7 +102,8 @@ def test_any_number_of_threads_certifies_the_same() -> None:
         ({"tips_to": np.zeros((2, 3))}, "tips_to and axes_to must have the same shape"),
         ({"tips": [[np.nan, 0, 0]]}, "tips: motion 0"),
         ({"axes_to": 2 * UP}, "axes_to: motion 0"),
-        ({"tolerance_mm": -1.0}, "tolerance_mm"),
+        ({"tolerance_mm": np.inf}, "tolerance_mm: motion 0 must be finite"),
+        ({"tolerance_mm": np.zeros(2)}, "tolerance_mm must be a number or have shape"),
         ({"axis_deviation_deg": np.nan}, "axis_deviation_deg"),
     ],
 )
@@ -121,24 +123,58 @@ def test_every_cut_of_a_proven_plan_is_proven(plan: Plan) -> None:
         assert (np.diff(plan.tip[plan.pass_index == number, 1]) > 0).all()
 
 
-def test_the_cuts_are_clear_at_poses_that_nobody_certified(plan: Plan) -> None:
-    """Samples along the cuts, by the judge that knows nothing of the certificate."""
-    ends = np.flatnonzero(plan.path.kind == "cut")
+@pytest.mark.parametrize(
+    ("kinds", "parts", "depth", "found"),
+    [
+        (["cut"], 4, 0.01, -1e-9),
+        (["plunge", "retract"], 20, 0.01, 0.2),
+        (["rapid"], 10, 0.0, np.inf),
+    ],
+)
+def test_moves_are_clear_at_poses_that_nobody_certified(
+    plan: Plan, kinds: list[str], parts: int, depth: float, found: float
+) -> None:
+    """Samples along the moves, by the judge that knows nothing of the certificate."""
+    ends = np.flatnonzero(np.isin(plan.path.kind, kinds))
+    ends = ends[ends > 0]
     least = np.inf
-    for part in (0.25, 0.5, 0.75):
+    for part in np.arange(1, parts) / parts:
         tip = (1 - part) * plan.path.tip[ends - 1] + part * plan.path.tip[ends]
         axis = (1 - part) * plan.path.axis[ends - 1] + part * plan.path.axis[ends]
         axis /= np.linalg.norm(axis, axis=1)[:, None]  # small turns: near enough to the great circle
         sampled = _core.sampled_clearance(plan.scene.model, plan.scene.tool, tip, axis, _core.Context())
         least = min(least, float(sampled.min()))
-    assert -plan.job.tolerance.chord_mm <= least < 0
+    assert -depth <= least <= found
 
 
 def test_the_report_ends_with_one_statement(plan: Plan) -> None:
     usable, cuts = np.count_nonzero(plan.usable), np.count_nonzero(plan.path.kind == "cut")
-    said = f"free to 1 µm at all {usable} positions, within 10 µm on all {cuts} cuts between them, proven"
-    assert plan.report["statement"].startswith(said)
+    slow = np.count_nonzero(np.isin(plan.path.kind, ("plunge", "retract")))
+    rapids = np.count_nonzero(plan.path.kind[1:] == "rapid")
+    said = (
+        f"free to 1 µm at all {usable} positions, within 10 µm on all {cuts} cuts between them, "
+        f"within 10 µm on all {slow} plunges and retracts, clear on all {rapids} rapids, proven"
+    )
+    assert plan.report["statement"] == said
     assert report.text(plan.report).splitlines()[-1].startswith(said[1:], 1)
+
+
+def test_links_that_are_not_proven_are_named(plan: Plan) -> None:
+    links = np.flatnonzero(plan.path.kind != "cut")[1:]
+    retract = links[plan.path.kind[links] == "retract"][0]
+    rapid, plunge = retract + 1, retract + 1 + plan.path.kind[retract + 1 :].tolist().index("plunge")
+    proven = np.ones(len(plan.path), dtype=bool)
+    proven[[retract, rapid, plunge]] = False
+    path = replace(plan.path, proven=proven)
+    (line,) = report.unproven(path)
+    left, reached = path.position[retract - 1], path.position[plunge]
+    assert line.startswith(f"3 links are not proven free: retract from position {left} (least clearance")
+    assert f"rapid to position {reached} (" in line and f"plunge to position {reached} (" in line
+    said = statement(plan, path, plan.job.tolerance, "proven")
+    slow = np.count_nonzero(np.isin(path.kind, ("plunge", "retract")))
+    rapids = np.count_nonzero(path.kind[1:] == "rapid")
+    assert f"on {slow - 2} of {slow} plunges and retracts, clear on {rapids - 1} of {rapids} rapids" in said
+    assert report.unproven(plan.path) == []
 
 
 def test_the_machine_gets_the_deviation_that_the_certificate_took_off(plan: Plan) -> None:
@@ -158,7 +194,7 @@ def test_verify_judges_the_cuts_of_a_file(plan: Plan, tmp_path: Path) -> None:
     text = cl_file.to_csv(plan, plan.path)
     (tmp_path / "cl.csv").write_text(text)
     good = verification.verify(plan.job, cl_file.read_csv(tmp_path / "cl.csv"), Stages())
-    assert good.good and len(good.cuts) == np.count_nonzero(plan.usable)
+    assert good.good and len(good.verdict) == len(good.moves) - 1
     lines = text.splitlines()
     # Without the positions between, the tool takes the chord.
     inserted = set(np.flatnonzero(plan.inserted).tolist())
@@ -167,7 +203,7 @@ def test_verify_judges_the_cuts_of_a_file(plan: Plan, tmp_path: Path) -> None:
     (tmp_path / "thin.csv").write_text("\n".join([*thin, ""]))
     bad = verification.verify(plan.job, cl_file.read_csv(tmp_path / "thin.csv"), Stages())
     assert not bad.good and (bad.clearance >= -plan.job.tolerance.gouge_mm).all()
-    assert any("First bad cut: on line" in line for line in bad.lines)
+    assert any("First bad one: on line" in line for line in bad.lines)
 
 
 def test_a_cancel_stops_the_certificates_soon(thesis_job: Job) -> None:
@@ -186,8 +222,9 @@ def test_a_cancel_stops_the_certificates_soon(thesis_job: Job) -> None:
 
 
 @pytest.mark.parametrize("name", ["convex", "concave", "saddle", "bonnet_die"])
-def test_all_cuts_of_a_shipped_example_are_proven(name: str) -> None:
+def test_all_moves_of_a_shipped_example_are_proven(name: str) -> None:
     plan = planning.plan(job.load(EXAMPLES / f"{name}.toml"))
     assert plan.report["path"]["moves_not_cut"] == 0
     assert plan.report["path"]["worst_cut_clearance_mm"] >= -0.01
-    assert "proven" in plan.report["statement"] and " of " not in plan.report["statement"]
+    assert plan.path.proven.all() and plan.report["path"]["links_not_proven"] == []
+    assert "rapids, proven" in plan.report["statement"] and " of " not in plan.report["statement"]

@@ -25,7 +25,7 @@ def upright_raster(zigzag=False):
 def link(tip, axis, passes, usable=None, **options):
     usable = np.ones(len(tip), bool) if usable is None else usable
     path = _core.link_passes(
-        floor(),
+        _core.CellTree(floor(), TOOL),
         TOOL,
         tip,
         axis,
@@ -47,6 +47,7 @@ def test_every_position_is_visited_once_in_order(zigzag):
     assert np.array_equal(path["pass_index"][visited], passes)
     assert set(path["kind"][visited]) == {"cut", "plunge"}
     assert not path["blocked"].any()
+    assert path["proven"].tolist() == (path["kind"] != "cut").tolist()
 
 
 def test_shapes_and_types():
@@ -54,7 +55,7 @@ def test_shapes_and_types():
     count = len(path["kind"])
     assert path["tip"].shape == path["axis"].shape == (count, 3)
     assert path["clearance"].shape == path["blocked"].shape == path["pass_index"].shape == (count,)
-    assert path["blocked"].dtype == bool and path["position"].dtype == np.int64
+    assert path["blocked"].dtype == path["proven"].dtype == bool and path["position"].dtype == np.int64
 
 
 def test_zigzag_has_shorter_rapids():

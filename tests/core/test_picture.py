@@ -33,7 +33,7 @@ def plan_on_floor(usable=True, flip=1.0):
     face = floor()
     surface = _core.BSplineSurface(1, 1, KNOTS, KNOTS, face.poles)
     path = _core.link_passes(
-        _core.SurfaceModel([_core.Face("Face1", surface)]),
+        _core.CellTree(_core.SurfaceModel([_core.Face("Face1", surface)]), TOOL),
         TOOL,
         tip,
         axis,

@@ -55,6 +55,7 @@ def plan_on(*arguments):
 def test_the_tool_goes_up_turns_and_goes_on(limited, thesis_part, tmp_path, post, tcp):
     plan = plan_on(limited, thesis_part, tmp_path, post, tcp)
     assert plan.report["verdict"]["good"], plan.report["verdict"]["line"]
+    assert plan.path.proven.all()
     turned = rewinds(plan.path)
     assert len(turned) >= 1
     assert any("rewind on the safe plane, before positions" in line for line in plan.report["warnings"])

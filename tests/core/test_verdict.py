@@ -29,11 +29,12 @@ def positions(status: str = "two_contacts", low: float = -np.inf, high: float = 
     )
 
 
-def path(kind: str = "cut", clearance: float = 0.0, blocked: bool = False) -> Path:
+def path(kind: str = "cut", clearance: float = 0.0, blocked: bool = False, proven: bool = True) -> Path:
     """One move."""
     zero = np.zeros(1, dtype=int)
     up = np.array([[0.0, 0.0, 1.0]])
-    return Path(np.array([kind]), 0 * up, up, zero, zero, np.array([clearance]), np.array([blocked]))
+    flags = np.array([blocked]), np.array([proven])
+    return Path(np.array([kind]), 0 * up, up, zero, zero, np.array([clearance]), *flags)
 
 
 CASES = [
@@ -54,6 +55,8 @@ CASES = [
     ),
     ("deep plunge", positions(), path("plunge", -0.12), [], "sampled", None),
     ("blocked", positions(), path(blocked=True), [], "sampled", "1 moves run into the part"),
+    ("open link", positions(), path("rapid", proven=False), [], "proven", "1 links are not proven free"),
+    ("open cut", positions(), path(proven=False), [], "sampled", None),
     ("limits", positions(), path(), ["an axis leaves its limits"], "sampled", "an axis leaves its limits"),
 ]
 

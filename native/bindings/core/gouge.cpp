@@ -1,6 +1,7 @@
 #include "common.h"
 #include "mpm/gouge/certify_motion.h"
 #include "mpm/gouge/certify_poses.h"
+#include "mpm/gouge/judge_cells.h"
 
 namespace mpm::bindings {
 namespace {
@@ -50,24 +51,41 @@ py::dict poses(const SurfaceModel& model,
   return to_dict(found);
 }
 
-py::dict motions(const SurfaceModel& model,
+// One number for all motions, or one for each.
+double of_motion(const DoubleArray& values, std::size_t index) {
+  return values.ndim() == 0 ? *values.data() : values.data()[index];
+}
+
+void check_count(const DoubleArray& values, std::size_t count, const char* name) {
+  require(values.ndim() == 0 || (values.ndim() == 1 && std::size_t(values.size()) == count),
+          std::string(name) + " must be a number or have shape (N,), got " + shape_of(values));
+}
+
+py::dict motions(const CellTree& cells,
                  const Tool& tool,
                  const DoubleArray& tips,
                  const DoubleArray& axes,
                  const DoubleArray& tips_to,
                  const DoubleArray& axes_to,
-                 double tolerance_mm,
-                 double axis_deviation_deg,
+                 const DoubleArray& tolerance_mm,
+                 const DoubleArray& axis_deviation_deg,
                  Context& context) {
   const std::vector<ToolPose> from = to_poses(tool, tips, axes, "tips", "axes");
   const std::vector<ToolPose> to = to_poses(tool, tips_to, axes_to, "tips_to", "axes_to");
-  CertifyMotionOptions options;
-  options.tolerance = tolerance_mm;
-  options.axis_deviation = radians(axis_deviation_deg);
+  require(from.size() == to.size(), "tips, axes, tips_to and axes_to must have the same length");
+  check_count(tolerance_mm, from.size(), "tolerance_mm");
+  check_count(axis_deviation_deg, from.size(), "axis_deviation_deg");
+  std::vector<Motion> all;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    CertifyMotionOptions options;
+    options.tolerance = of_motion(tolerance_mm, i);
+    options.axis_deviation = radians(of_motion(axis_deviation_deg, i));
+    all.push_back({from[i], to[i], options});
+  }
   std::vector<MotionCertificate> found;
   {
     py::gil_scoped_release release;
-    found = certify_motions(model, tool, from, to, options, context);
+    found = certify_motions(cells, tool, all, context);
   }
   return to_dict(found);
 }
@@ -75,6 +93,15 @@ py::dict motions(const SurfaceModel& model,
 }  // namespace
 
 void bind_gouge(py::module_& m) {
+  py::class_<CellTree, std::shared_ptr<CellTree>>(
+      m, "CellTree", "The faces in pieces of all sizes, with bounds: what proofs about one tool work on.")
+      .def(py::init([](const SurfaceModel& model, const Tool& tool) {
+             py::gil_scoped_release release;
+             return std::make_shared<CellTree>(judge_cells(model, tool));
+           }),
+           py::arg("model"),
+           py::arg("tool"),
+           py::keep_alive<1, 2>());
   m.attr("VERDICTS") = py::make_tuple("free", "gouge", "undecided");
   m.def("certify_poses",
         &poses,
@@ -90,7 +117,7 @@ void bind_gouge(py::module_& m) {
         "verdict (N,) codes of VERDICTS, cells (N,).");
   m.def("certify_motions",
         &motions,
-        py::arg("model"),
+        py::arg("cells"),
         py::arg("tool"),
         py::arg("tips"),
         py::arg("axes"),
@@ -98,11 +125,12 @@ void bind_gouge(py::module_& m) {
         py::arg("axes_to"),
         py::kw_only(),
         py::arg("tolerance_mm"),
-        py::arg("axis_deviation_deg") = 0.0,
+        py::arg("axis_deviation_deg") = DoubleArray(py::float_(0.0)),
         py::arg("context"),
         "Certificates of the moves from each tip, axis (N, 3) to tips_to, axes_to (N, 3): tip on a line, "
-        "axis within axis_deviation_deg of the great circle. Dict of lo, hi (N,) mm, proven and met bounds "
-        "of the least clearance (infinite: none), verdict (N,) codes of VERDICTS, cells (N,).");
+        "axis within axis_deviation_deg of the great circle. tolerance_mm may be cut in; negative, it is the "
+        "clearance asked for. Both are one number or (N,). Dict of lo, hi (N,) mm, proven and met bounds of "
+        "the least clearance (infinite: none), verdict (N,) codes of VERDICTS, cells (N,).");
 }
 
 }  // namespace mpm::bindings

@@ -1,6 +1,7 @@
 #include <map>
 
 #include "common.h"
+#include "mpm/machine/joint_motion.h"
 #include "mpm/machine/orientation.h"
 #include "mpm/machine/refine.h"
 
@@ -107,6 +108,30 @@ py::tuple forward_all(const KinematicChain& chain,
     axis.push_back(at.axis);
   }
   return py::make_tuple(from_vectors(tip), from_vectors(axis));
+}
+
+py::tuple deviations(const KinematicChain& chain,
+                     const DoubleArray& linear_mm,
+                     const DoubleArray& rotary_deg,
+                     const DoubleArray& linear_to_mm,
+                     const DoubleArray& rotary_to_deg,
+                     const Vec3& part_origin_mm,
+                     double tool_length_mm) {
+  const std::vector<Vec3> linear = to_vectors<Vec3>(linear_mm, "linear_mm"),
+                          linear_to = to_vectors<Vec3>(linear_to_mm, "linear_to_mm");
+  const std::vector<Vec2> rotary = to_radians(rotary_deg, "rotary_deg"),
+                          rotary_to = to_radians(rotary_to_deg, "rotary_to_deg");
+  require_same_length(linear.size(), rotary.size(), "linear_mm and rotary_deg");
+  require_same_length(linear.size(), linear_to.size(), "linear_mm and linear_to_mm");
+  require_same_length(linear.size(), rotary_to.size(), "linear_mm and rotary_to_deg");
+  std::vector<double> tip_mm, axis_deg;
+  for (std::size_t i = 0; i < linear.size(); ++i) {
+    const MotionDeviation off = deviation_bound(
+        chain, {part_origin_mm, tool_length_mm}, {linear[i], rotary[i]}, {linear_to[i], rotary_to[i]});
+    tip_mm.push_back(off.tip);
+    axis_deg.push_back(degrees(off.axis));
+  }
+  return py::make_tuple(from_scalars(tip_mm), from_scalars(axis_deg));
 }
 
 py::array_t<double> in_pairs(const std::vector<Vec2>& v) {
@@ -251,6 +276,18 @@ void bind_chain(py::module_& m) {
            py::arg("part_origin_mm") = Vec3(Vec3::Zero()),
            py::arg("tool_length_mm") = 0.0,
            "Readings (N, 3) and (N, 2) -> tip (N, 3) in mm and unit tool axis (N, 3), part frame.")
+      .def(
+          "deviation_bound",
+          &deviations,
+          py::arg("linear_mm"),
+          py::arg("rotary_deg"),
+          py::arg("linear_to_mm"),
+          py::arg("rotary_to_deg"),
+          py::kw_only(),
+          py::arg("part_origin_mm") = Vec3(Vec3::Zero()),
+          py::arg("tool_length_mm") = 0.0,
+          "All five axes run evenly from readings (N, 3), (N, 2) to others: bounds of how far that takes the "
+          "tip off its\nstraight line, mm (N,), and the axis off its great circle, degrees (N,).")
       .def("inverse",
            &inverse_all,
            py::arg("tip"),

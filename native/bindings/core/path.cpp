@@ -23,11 +23,12 @@ py::dict to_dict(const ToolPath& path) {
   result["position"] = from_scalars(path.position);
   result["pass_index"] = from_scalars(path.pass);
   result["clearance"] = from_scalars(path.clearance);
+  result["proven"] = from_scalars(path.proven).attr("astype")("bool");
   result["blocked"] = from_scalars(path.blocked).attr("astype")("bool");
   return result;
 }
 
-py::dict link(const SurfaceModel& model,
+py::dict link(const CellTree& cells,
               const Tool& tool,
               const DoubleArray& tip,
               const DoubleArray& axis,
@@ -45,7 +46,7 @@ py::dict link(const SurfaceModel& model,
   ToolPath path;
   {
     py::gil_scoped_release release;
-    path = link_passes(model, tool, positions, options, context);
+    path = link_passes(cells, tool, positions, options, context);
   }
   return to_dict(path);
 }
@@ -57,7 +58,10 @@ LinkOptions make_options(double safe_clearance_mm,
                          double check_step_mm,
                          double cut_length_max_mm,
                          double cut_turn_max_deg,
-                         double rapid_turn_max_deg) {
+                         double rapid_turn_max_deg,
+                         double depth_mm,
+                         double tip_deviation_mm,
+                         double axis_deviation_deg) {
   return {safe_clearance_mm,
           approach_distance_mm,
           gouge_mm,
@@ -65,7 +69,10 @@ LinkOptions make_options(double safe_clearance_mm,
           check_step_mm,
           cut_length_max_mm,
           radians(cut_turn_max_deg),
-          radians(rapid_turn_max_deg)};
+          radians(rapid_turn_max_deg),
+          depth_mm,
+          tip_deviation_mm,
+          radians(axis_deviation_deg)};
 }
 
 }  // namespace
@@ -85,15 +92,20 @@ void bind_path(py::module_& m) {
            py::arg("cut_length_max_mm") = LinkOptions{}.cut_length_max,
            py::arg("cut_turn_max_deg") = degrees(LinkOptions{}.cut_turn_max),
            py::arg("rapid_turn_max_deg") = degrees(LinkOptions{}.rapid_turn_max),
+           py::arg("depth_mm") = LinkOptions{}.depth,
+           py::arg("tip_deviation_mm") = LinkOptions{}.tip_deviation,
+           py::arg("axis_deviation_deg") = degrees(LinkOptions{}.axis_deviation),
            "safe_clearance: tool above everything on the safe plane; approach_distance: where rapids end; "
            "gouge, "
            "cut_gouge: how much deeper than its positions a link or a cut may go; check_step: between "
            "checked poses; "
-           "cut_length_max, cut_turn_max: what one cut may join; rapid_turn_max: axis motion of one rapid.");
+           "cut_length_max, cut_turn_max: what one cut may join; rapid_turn_max: axis motion of one rapid; "
+           "depth: what a proven plunge or retract may cut in, the real tip and axis being off by their "
+           "deviations.");
   m.def(
       "link_passes",
       &link,
-      py::arg("model"),
+      py::arg("cells"),
       py::arg("tool"),
       py::arg("tip"),
       py::arg("axis"),
@@ -107,8 +119,9 @@ void bind_path(py::module_& m) {
       "cuts along the passes, checked links over every gap. cut_clearance (N,): proven clearance (mm) of the "
       "cut that ends in each position, NaN where it must not be cut; None: sampling decides. Dict of kind "
       "(M,) codes of MOVE_KINDS, tip, axis (M, 3), position (M,) index or -1, pass_index (M,), clearance "
-      "(M,) mm, least sampled along the move or cut_clearance, and blocked (M,): True where no free way was "
-      "found.");
+      "(M,) mm, least sampled along the move or the proven bound, proven (M,), and blocked (M,): True where "
+      "no "
+      "free way was found.");
 }
 
 }  // namespace mpm::bindings

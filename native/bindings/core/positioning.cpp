@@ -55,10 +55,11 @@ class Positioner {
              const Tool& tool,
              double tilt_max_deg,
              double spin_deg,
-             const std::map<std::string, double>& options)
+             const std::map<std::string, double>& options,
+             const std::shared_ptr<CellTree>& cells)
       : model_(model), tool_(tool), tilt_max_(radians(tilt_max_deg)) {
     py::gil_scoped_release release;
-    method_ = make_method(method, model, tool_, {radians(tilt_max_deg), radians(spin_deg), options});
+    method_ = make_method(method, model, tool_, {radians(tilt_max_deg), radians(spin_deg), options, cells});
   }
 
   py::dict place_contacts(const std::vector<std::uint32_t>& faces,
@@ -204,7 +205,8 @@ void bind_positioning(py::module_& m) {
                     const Tool&,
                     double,
                     double,
-                    const std::map<std::string, double>&>(),
+                    const std::map<std::string, double>&,
+                    const std::shared_ptr<CellTree>&>(),
            py::arg("method"),
            py::arg("model"),
            py::arg("tool"),
@@ -212,7 +214,9 @@ void bind_positioning(py::module_& m) {
            py::arg("tilt_max_deg") = 45.0,
            py::arg("spin_deg") = 0.0,
            py::arg("options") = std::map<std::string, double>{},
-           py::keep_alive<1, 3>())
+           py::arg("cells") = py::none(),
+           py::keep_alive<1, 3>(),
+           "cells: of the model and the tool, to be shared; None: a method that needs them makes its own.")
       .def("place",
            &Positioner::place,
            py::arg("points"),

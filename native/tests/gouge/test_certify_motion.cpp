@@ -5,6 +5,7 @@
 #include "mpm/contact/motion_bound.h"
 #include "mpm/gouge/certify_motion.h"
 #include "mpm/gouge/clearance_sampler.h"
+#include "mpm/gouge/judge_cells.h"
 #include "mpm/path/pose_motion.h"
 #include "surface/random_surface.h"
 #include "thesis.h"
@@ -27,7 +28,7 @@ MotionCertificate certify(const SurfaceModel& model,
                           const Tool& tool,
                           const Move& move,
                           const CertifyMotionOptions& options = {}) {
-  const CellTree tree(model, tool.radius() / 12);
+  const CellTree tree = judge_cells(model, tool);
   return certify_motion(tree,
                         tool,
                         ToolPose::from_tip(tool, move.from.tip, move.from.axis),
@@ -132,6 +133,33 @@ TEST(CertifyMotion, ATipThatSinksIntoAPlaneIsMeasuredAtItsEnd) {
   EXPECT_LE(good.lo, -0.009 + kTiny);
   EXPECT_GE(good.lo, -kTolerance);
   EXPECT_EQ(certify(model, tool, {{{50, 50, 1}, up}, {{53, 51, -0.011}, up}}).verdict, Verdict::gouge);
+}
+
+TEST(CertifyMotion, ANegativeToleranceAsksForClearance) {
+  const SurfaceModel model = testing::inclined_plane(0);
+  const Vec3 up = Vec3::UnitZ();
+  const Move move{{{50, 50, 1}, up}, {{60, 51, 2}, up}};
+  CertifyMotionOptions options;
+  options.tolerance = -0.99;
+  const MotionCertificate clear = certify(model, testing::thesis_tool(), move, options);
+  EXPECT_EQ(clear.verdict, Verdict::free);
+  EXPECT_GE(clear.lo, 0.99);
+  EXPECT_LE(clear.lo, 1 + kTiny);
+  options.tolerance = -1.01;
+  EXPECT_NE(certify(model, testing::thesis_tool(), move, options).verdict, Verdict::free);
+}
+
+TEST(CertifyMotion, AboveEverythingItTakesNoCell) {
+  const SurfaceModel model = testing::inclined_plane(0);
+  const Tool tool = testing::thesis_tool();
+  const double reach = tool.radius() * std::sin(0.5);  // below the tip when it leans
+  const Move high{{{50, 50, reach + 1}, Vec3::UnitZ()}, {{90, 50, reach + 1}, direction(0.4, 1)}};
+  const MotionCertificate c = certify(model, tool, high);
+  EXPECT_EQ(c.verdict, Verdict::free);
+  EXPECT_EQ(c.cells, 0u);
+  EXPECT_EQ(c.lo, 0);
+  const Move low{{{50, 50, 0.1}, Vec3::UnitZ()}, {{90, 50, 0.1}, direction(0.4, 1)}};
+  EXPECT_EQ(certify(model, tool, low).verdict, Verdict::gouge);
 }
 
 // A tool that rocks through the upright from one side to the other: with the torus centre at height
@@ -305,7 +333,7 @@ TEST(CertifyMotion, AnExhaustedBudgetAndACancelAreUndecidedNotFree) {
   Context cancelled;
   cancelled.cancel();
   const ToolPose pose = ToolPose::from_tip(tool, {75, 75, 200}, Vec3::UnitZ());
-  const auto none = certify_motions(model, tool, {pose}, {pose}, {}, cancelled);
+  const auto none = certify_motions(judge_cells(model, tool), tool, {{pose, pose, {}}}, cancelled);
   EXPECT_EQ(none.at(0).verdict, Verdict::undecided);
 }
 

@@ -104,6 +104,20 @@ TEST(Refine, PassingNearThePoleKeepsTheTolerance) {
   EXPECT_LE(dense_deviation(inclined_head(), refined), 1e-4);
 }
 
+// In the pole cone the head does not go where the poses say: no split helps, and it must be told.
+TEST(Refine, WhatThePoleConeTakesCounts) {
+  PosePath path = two_poses(direction(5e-5, 0.0), direction(5e-5, 1.5));
+  path.tip.push_back({20, 0, 0}), path.axis.push_back(direction(0.3, 1.0)), path.cutting.push_back(1);
+  const JointPathOptions cone{{}, 1e-4};
+  const RefinedPath wide = refine(inclined_head(), path, {cone, 1e-3});
+  EXPECT_LE(dense_deviation(inclined_head(), wide), 1e-3);
+  EXPECT_EQ(std::count(wide.keeps.begin(), wide.keeps.end(), 0), 0);
+  const RefinedPath narrow = refine(inclined_head(), path, {cone, 2e-5});
+  EXPECT_GT(dense_deviation(inclined_head(), narrow), 2e-5);
+  EXPECT_GT(std::count(narrow.keeps.begin(), narrow.keeps.end(), 0), 0);
+  EXPECT_LT(narrow.poses.size(), 1000u);
+}
+
 TEST(Refine, TolerancesMustBePositive) {
   EXPECT_THROW(refine(inclined_head(), {}, {}), std::invalid_argument);
   EXPECT_THROW(refine(inclined_head(), {}, {{}, 1.0, 0.0}), std::invalid_argument);

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "mpm/gouge/judge_cells.h"
 #include "mpm/path/escape.h"
 #include "mpm/path/link_passes.h"
 
@@ -47,7 +48,7 @@ ToolPath link(const SurfaceModel& model,
               const LinkOptions& options = {},
               const Tool& tool = kTool) {
   Context context(1);
-  return link_passes(model, tool, positions, options, context);
+  return link_passes(judge_cells(model, tool), tool, positions, options, context);
 }
 
 PathPositions one_position(const Vec3& tip, const Vec3& axis) { return {{tip}, {axis}, {0}, {1}, {}}; }
@@ -97,6 +98,8 @@ TEST(LinkPasses, JoinsPassesOverTheSafePlane) {
     EXPECT_EQ(count(path, MoveKind::plunge), 3u);
     EXPECT_EQ(count(path, MoveKind::retract), 3u);
     EXPECT_EQ(count(path, MoveKind::link), 0u);
+    for (std::size_t i = 0; i < path.size(); ++i)  // nobody proved the cuts
+      EXPECT_EQ(path.proven[i], path.kind[i] != MoveKind::cut);
     EXPECT_GT(least_clearance_of_links(model, path), -1e-9);
   }
 }
@@ -210,12 +213,61 @@ TEST(LinkPasses, MarksAPositionThatHasNoWayOut) {
   EXPECT_LT(path.clearance.back(), -1.0);
 }
 
+// A level plate of 0.3 mm, all that is left of a large one: no sample meets it.
+Face speck(const Vec3& at) {
+  Face face = bilinear({0, 0, at.z()}, {0, 100, at.z()}, {100, 0, at.z()}, {100, 100, at.z()});
+  const double u = at.x() / 100, v = at.y() / 100, d = 0.0015;
+  face.trim = TrimRegion({{{u - d, v - d}, {u + d, v - d}, {u + d, v + d}, {u - d, v + d}}});
+  return face;
+}
+
+TEST(LinkPasses, AWayThatCannotBeProvenIsNotTakenWhereAnotherCan) {
+  const Vec3 axis(std::sin(0.6), 0, std::cos(0.6)), tip(40, 50, 10);
+  // Above the position, 9 mm from the way along the axis; more upright ones pass it by.
+  const Vec3 above = tip + 45 * axis + 9 * Vec3(axis.z(), 0, -axis.x());
+  const SurfaceModel model = model_of({floor_100(), speck(above)});
+  const ToolPath path = link(model, one_position(tip, axis), {}, kShort);
+  EXPECT_GT(angle_between((path.tip.back() - tip).normalized(), axis), 0.1);
+  EXPECT_EQ(path.proven.back(), 1);
+  EXPECT_EQ(std::count(path.proven.begin(), path.proven.end(), 0), 0);
+}
+
+TEST(LinkPasses, WhatSamplingCallsFreeIsNotProvenWhenItIsNot) {
+  const SurfaceModel model = model_of({floor_100(), speck({50.37, 50.37, 60})});
+  const ToolPath path = link(model, one_position({50, 50, 0}, Vec3::UnitZ()), {}, kShort);
+  EXPECT_EQ(std::count(path.blocked.begin(), path.blocked.end(), 1), 0);
+  EXPECT_EQ(path.kind.back(), MoveKind::retract);
+  EXPECT_EQ(path.proven.back(), 0);
+}
+
+// The proof leaves room for what the control is off by, here beside a wall of 20 mm.
+TEST(LinkPasses, DeviationsCountInTheProof) {
+  struct Case {
+    double gap, lean, shift;
+    int proven;
+  };
+  for (const auto& [gap, lean, shift, proven] : {Case{0.5, 0.01, 0, 1},
+                                                 Case{0.5, 0.03, 0, 0},  // 20 mm up it is off by 0.6 mm
+                                                 Case{-0.02, 0, 0.02, 1},
+                                                 Case{-0.02, 0, 0.04, 0}}) {
+    const double x = 50 + kShort.radius() + gap;
+    const SurfaceModel model = model_of({bilinear({x, 0, 0}, {x, 100, 0}, {x, 0, 20}, {x, 100, 20})});
+    const LinkOptions options{.gouge = 1, .depth = 0.05, .tip_deviation = shift, .axis_deviation = lean};
+    const ToolPath path = link(model, one_position({50, 50, 0}, Vec3::UnitZ()), options, kShort);
+    EXPECT_EQ(path.proven.back(), proven) << gap << ' ' << lean << ' ' << shift;
+    if (!proven) continue;
+    EXPECT_LE(path.clearance.back(), std::min(gap, 0.0) - shift + 1e-9);
+    EXPECT_GE(path.clearance.back(), -options.depth);
+  }
+}
+
 TEST(LinkPasses, SameBytesForAnyThreadCount) {
   const SurfaceModel model = model_of({floor_100()});
   const PathPositions positions = raster_on_floor(4, 9, true);
   Context one(1), two(2);
-  const ToolPath a = link_passes(model, kTool, positions, {}, one),
-                 b = link_passes(model, kTool, positions, {}, two);
+  const CellTree cells = judge_cells(model, kTool);
+  const ToolPath a = link_passes(cells, kTool, positions, {}, one),
+                 b = link_passes(cells, kTool, positions, {}, two);
   EXPECT_EQ(a.tip, b.tip);
   EXPECT_EQ(a.clearance, b.clearance);
 }
@@ -233,8 +285,9 @@ TEST(LinkPasses, NamesWhatIsWrong) {
 TEST(LinkPasses, CancelledCallReturnsNothing) {
   Context context(1);
   context.cancel();
+  const SurfaceModel model = model_of({floor_100()});
   const ToolPath path =
-      link_passes(model_of({floor_100()}), kTool, raster_on_floor(2, 3, false), {}, context);
+      link_passes(judge_cells(model, kTool), kTool, raster_on_floor(2, 3, false), {}, context);
   EXPECT_EQ(path.size(), 0u);
 }
 

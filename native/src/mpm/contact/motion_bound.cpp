@@ -2,17 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "mpm/contact/clearance_bound.h"
 
 namespace mpm {
 namespace {
 
-// A bound here takes some 500 rounded operations, a stretch's pose some 60 (docs/numerics.md).
+// A bound here takes some 700 rounded operations, a stretch's pose some 60 (docs/numerics.md).
 constexpr double kMotionRoundoff = 4096 * kRoundoff;
 // Part of the largest second-order coefficient below which a pivot counts as zero: far above the rounding of
 // the elimination, far below what any clearance feels.
 constexpr double kFlat = 1e-9;
+// What the cube may grow by for unknowns of which T is linear; beyond it the old ones are kept.
+constexpr double kMostGrowth = 0.5;
 
 double least_on_face(const Quadratic3& q, int i, double x) {
   // Indices of h for the squares and for the products of each unknown with the two others.
@@ -35,6 +38,96 @@ double least_on_faces(const Quadratic3& q) {
 // Rotation by `angle` about the unit vector k of a vector at right angles to k.
 Vec3 turned(const Vec3& v, const Vec3& sideways, double angle) {
   return (std::cos(angle) * v + std::sin(angle) * sideways).normalized();
+}
+
+// Indices of the unknowns that each second-order term multiplies.
+constexpr int kRow[6] = {0, 0, 1, 0, 1, 2}, kColumn[6] = {0, 1, 1, 2, 2, 2};
+constexpr double times(int term) { return kRow[term] == kColumn[term] ? 1 : 2; }
+
+// A displacement along the radius, the gradient n, the meridian's tangent t and the ring's tangent p.
+struct Component {
+  double r = 0, n = 0, t = 0, p = 0;
+
+  void add_size(const Component& c) {
+    r += std::abs(c.r), n += std::abs(c.n), t += std::abs(c.t), p += std::abs(c.p);
+  }
+};
+
+// Of a moving cell's coefficients; `linear` and `rest` bound the sum of all first and all others.
+struct Components {
+  std::array<Component, 3> first;
+  std::array<Component, 6> second;
+  Component linear, rest;
+};
+
+Components components(
+    const MovingCell& cell, const Vec3& radial, const Vec3& axis, const Vec3& around, double nr, double nz) {
+  Components x;
+  const auto split = [&](const Vec3& v) -> Component {
+    const double r = radial.dot(v), z = axis.dot(v);
+    return {r, nr * r + nz * z, nr * z - nz * r, around.dot(v)};
+  };
+  for (int i = 0; i < 3; ++i) x.linear.add_size(x.first[i] = split(cell.first[i]));
+  for (int i = 0; i < 6; ++i) x.rest.add_size(x.second[i] = split(cell.second[i]));
+  return x;
+}
+
+// T = t x + sum_(i<=j) h_ij x_i x_j, to within `off`: how far a point is from where the ring is nearest,
+// along the meridian.
+struct Bend {
+  std::array<double, 3> t;
+  std::array<double, 6> h;
+  double off;
+};
+
+void add_square(Quadratic3& q, const std::array<double, 3>& t, double factor) {
+  for (int i = 0; i < 6; ++i) q.h[i] += factor * times(i) * t[kRow[i]] * t[kColumn[i]];
+}
+
+// The symmetric matrix of a quadratic form, times d.
+Vec3 times_matrix(const std::array<double, 6>& h, const Vec3& d) {
+  return {h[0] * d[0] + 0.5 * (h[1] * d[1] + h[3] * d[2]),
+          h[2] * d[1] + 0.5 * (h[1] * d[0] + h[4] * d[2]),
+          h[5] * d[2] + 0.5 * (h[3] * d[0] + h[4] * d[1])};
+}
+
+// (S + o)^2 >= keep S^2 - loss for all |S| <= straight, |o| <= off: of (1 - e) S^2 - (1 / e - 1) o^2, which
+// lies below it for any e in (0, 1], the one that takes no more at the largest S and o than their product
+// does.
+struct Square {
+  double keep, loss;
+};
+
+Square square_of(double straight, double off) {
+  if (off >= straight) return {0, 0};
+  return {1 - off / straight, off * (straight - off)};
+}
+
+// A quadratic below n + kt T^2, in the unknowns y = x + d T2(x), of which T is linear: t y, with t d = 1. The
+// cube grows for that by what T2 comes to, and what n changes by beyond second order is taken off. Nothing
+// where that takes more than `loss`, the price of staying with x.
+std::optional<Quadratic3> straightened(const Quadratic3& n, const Bend& bend, double kt, double loss) {
+  const Vec3 t(bend.t[0], bend.t[1], bend.t[2]), g(n.g[0], n.g[1], n.g[2]);
+  double most = 0;  // of |T2|
+  for (double h : bend.h) most += std::abs(h);
+  const double square = t.squaredNorm();
+  if (square == 0 || most * t.cwiseAbs().maxCoeff() > kMostGrowth * square) return std::nullopt;
+  const Vec3 d = t / square, grown = Vec3::Ones() + most * d.cwiseAbs();
+  const Vec3 n_d = times_matrix(n.h, d), bend_d = times_matrix(bend.h, d);
+  const double slope = g.dot(d);
+  const Square square_t = square_of(t.cwiseAbs().sum() + most, bend.off);
+  const double lost =
+      2 * most * n_d.cwiseAbs().dot(grown) + most * most * std::max(0.0, -n_d.dot(d)) +
+      std::abs(slope) * (2 * most * bend_d.cwiseAbs().dot(grown) + most * most * std::abs(bend_d.dot(d))) +
+      kt * square_t.loss;
+  if (!(lost < loss)) return std::nullopt;
+  Quadratic3 q = n;
+  q.f -= lost;
+  for (int i = 0; i < 6; ++i) q.h[i] -= slope * bend.h[i];
+  add_square(q, bend.t, square_t.keep * kt);
+  for (int i = 0; i < 3; ++i) q.g[i] *= grown[i];
+  for (int i = 0; i < 6; ++i) q.h[i] *= grown[kRow[i]] * grown[kColumn[i]];
+  return q;
 }
 
 }  // namespace
@@ -95,6 +188,18 @@ double ToolMotion::magnitude() const {
   return std::max(from_.cwiseAbs().maxCoeff(), to_.cwiseAbs().maxCoeff());
 }
 
+// What a point of the tool at x from the tip differs by, at any time, from the even way along its chord is
+// zero at both ends and has a second derivative of turn^2 |x| at most: it is at most an eighth of that. The
+// even ways stay between the ends' boxes.
+Box3 ToolMotion::swept_box(const Tool& tool, double axis_deviation) const {
+  const double lever = hypotenuse(tool.length(), tool.reach());
+  const double margin = lever * (turn_ * turn_ / 8 + axis_deviation) +
+                        kMotionRoundoff * (magnitude() + tool.length() + tool.reach());
+  Box3 box = tool_bounds(tool, at(0.0), margin);
+  box.extend(tool_bounds(tool, at(1.0), margin));
+  return box;
+}
+
 // Seen from the tool a point at x from the middle tip goes to R(-t turn) (x - t step). With k the pivot,
 //   R(-p) v = v - p k x v + p^2/2 k x (k x v), to within |p|^3/6 |v|.
 // What the cell's own extent adds to the turn is kept to first order (the products a t and b t).
@@ -138,50 +243,35 @@ MotionBound::Answer MotionBound::operator()(const MovingCell& cell, double enoug
   return {std::min(lower, rest.lower) - rounding, std::min(center, rest.center)};
 }
 
-// As ClearanceBound::ring (docs/methods/exact.md, "Bound"), over three unknowns.
+// Least of N + kt T^2 (docs/motion.md, "Bound"): N and T as ClearanceBound has them, over three unknowns.
 double MotionBound::ring(const MovingCell& cell, const Meridian& at) const {
   const Vec3& axis = pose_.axis;
   const double distance = hypotenuse(at.r - tool_.major_radius, at.z);
-  const Vec3 around = axis.cross(at.radial);
   const double nr = (at.r - tool_.major_radius) / distance, nz = at.z / distance;
-  // Components along the radius, the gradient n, the meridian's tangent t and the ring's tangent p.
-  struct Component {
-    double r, n, t, p;
-  };
-  const auto split = [&](const Vec3& v) -> Component {
-    const double r = at.radial.dot(v), z = axis.dot(v);
-    return {r, nr * r + nz * z, nr * z - nz * r, around.dot(v)};
-  };
-  std::array<Component, 3> first;
-  Component linear{}, rest{};
-  const auto add = [](Component& sum, const Component& c) {
-    sum.r += std::abs(c.r), sum.n += std::abs(c.n), sum.t += std::abs(c.t), sum.p += std::abs(c.p);
-  };
-  Quadratic3 q;
-  for (int i = 0; i < 3; ++i) {
-    first[i] = split(cell.first[i]);
-    add(linear, first[i]);
-    q.g[i] = first[i].n;
-  }
+  const Components x = components(cell, at.radial, axis, axis.cross(at.radial), nr, nz);
+  const double p_most = x.linear.p + x.rest.p, dr = std::min(x.linear.r + x.rest.r, cell.radius);
+  const double steep = 1 / (2 * (at.r - dr)), flat = 1 / (at.r + dr + hypotenuse(at.r + dr, p_most));
+  const double bulge = steep * p_most * p_most;  // steep p^2 and flat p^2 have the bulge e between them
+  const double t_extra = x.rest.t + std::abs(nz) * bulge;
+  const double leg = distance + x.linear.n + x.rest.n + std::abs(nr) * bulge;
+  const double kt = 1 / (leg + hypotenuse(leg, x.linear.t + t_extra)), kp = nr * (nr >= 0 ? flat : steep);
+  const double p_loss = std::abs(kp) * (2 * x.linear.p * x.rest.p + (kp < 0 ? x.rest.p * x.rest.p : 0.0));
+  Quadratic3 n{distance - tool_.minor_radius - cell.error - p_loss, {}, {}};
+  Bend bend{{}, {}, 0};
+  const double w = 0.5 / at.r;
+  for (int i = 0; i < 3; ++i) n.g[i] = x.first[i].n, bend.t[i] = x.first[i].t;
   for (int i = 0; i < 6; ++i) {
-    const Component c = split(cell.second[i]);
-    add(rest, c);
-    q.h[i] = c.n;
+    const double pp = times(i) * x.first[kRow[i]].p * x.first[kColumn[i]].p;
+    n.h[i] = x.second[i].n + kp * pp;
+    bend.h[i] = x.second[i].t - nz * w * pp;
   }
-  const double p_most = linear.p + rest.p, dr = std::min(linear.r + rest.r, cell.radius);
-  const double bulge = p_most * p_most / (2 * (at.r - dr));
-  const double t_extra = rest.t + std::abs(nz) * bulge;
-  const double leg = distance + linear.n + rest.n + std::abs(nr) * bulge;
-  const double kt = 1 / (leg + hypotenuse(leg, linear.t + t_extra));
-  const double kp = nr >= 0 ? nr / (at.r + dr + hypotenuse(at.r + dr, p_most)) : nr / (2 * (at.r - dr));
-  constexpr int row[6] = {0, 0, 1, 0, 1, 2}, column[6] = {0, 1, 1, 2, 2, 2};
-  for (int i = 0; i < 6; ++i) {
-    const Component &u = first[row[i]], &v = first[column[i]];
-    q.h[i] += (row[i] == column[i] ? 1 : 2) * (kp * u.p * v.p + kt * u.t * v.t);
-  }
-  const double p_loss = std::abs(kp) * (2 * linear.p * rest.p + (kp < 0 ? rest.p * rest.p : 0.0));
-  q.f = distance - tool_.minor_radius - cell.error - p_loss - kt * 2 * linear.t * t_extra;
-  return least_quadratic(q);
+  bend.off = std::abs(nz) *
+             (p_most * p_most * std::max(steep - w, w - flat) + w * x.rest.p * (2 * x.linear.p + x.rest.p));
+  const Square square = square_of(x.linear.t, t_extra);
+  if (const auto straight = straightened(n, bend, kt, kt * square.loss)) return least_quadratic(*straight);
+  add_square(n, bend.t, square.keep * kt);
+  n.f -= kt * square.loss;
+  return least_quadratic(n);
 }
 
 MotionBound::Answer MotionBound::pieces(const MovingCell& cell, const Meridian& at, double enough) const {

@@ -38,6 +38,9 @@ class ToolMotion {
   // mm, the largest coordinate of a tip.
   double magnitude() const;
 
+  // Contains the tool all the way, the real axis being off by at most axis_deviation (radians).
+  Box3 swept_box(const Tool& tool, double axis_deviation) const;
+
  private:
   double minor_radius_;
   Vec3 from_, to_, axis_, sideways_, pivot_;

@@ -14,7 +14,6 @@ namespace {
 
 constexpr double kTrimResolution = 1e-6;       // mm
 constexpr double kFinestCell = 1e-10;          // mm: smaller cells are all rounding
-constexpr double kLeafPerRadius = 1.0 / 12;    // finest precomputed cells against the cutter's radius
 constexpr double kUnitTolerance = 1e-6;        // of the length of an axis that comes from a file
 constexpr double kOppositeSlack = 1e-6;        // radians: nearer to opposite, the great circle is not known
 constexpr std::uint64_t kCellsPerLook = 1024;  // between two looks at a cancel: a fraction of a millisecond
@@ -55,12 +54,19 @@ class Search {
          const ToolPose& to,
          const CertifyMotionOptions& options,
          const Context& context)
-      : tree_(tree), tool_(tool), motion_(tool, from, to), options_(options), context_(context) {}
+      : tree_(tree),
+        tool_(tool),
+        motion_(tool, from, to),
+        options_(options),
+        context_(context),
+        enough_(std::max(0.0, -options.tolerance)) {}
 
   MotionCertificate run() {
-    add_interval(0.0, 1.0);
-    for (std::uint32_t root : tree_.roots()) push_node(root, {-kInfinity, 0, 0});
-    double lo = 0;
+    double lo = enough_;
+    if (!keeps_off_everything()) {
+      add_interval(0.0, 1.0);
+      for (std::uint32_t root : tree_.roots()) push_node(root, {-kInfinity, 0, 0});
+    }
     while (!tasks_.empty()) {
       if (result_.cells >= options_.budget) return result_;
       if (result_.cells % kCellsPerLook == 0 && context_.cancelled()) return result_;
@@ -76,6 +82,13 @@ class Search {
   }
 
  private:
+  // By boxes: the way of the tool from end to end, and all faces.
+  bool keeps_off_everything() const {
+    const Box3& faces = tree_.model().bounds();
+    const Box3 swept = motion_.swept_box(tool_, options_.axis_deviation);
+    return (swept.lo - faces.hi).cwiseMax(faces.lo - swept.hi).maxCoeff() >= enough_;
+  }
+
   void push(const Task& task) {
     tasks_.push_back(task);
     std::push_heap(tasks_.begin(), tasks_.end());
@@ -102,7 +115,7 @@ class Search {
     const Piece& piece = pieces_[task.piece];
     const Interval& interval = intervals_[task.interval];
     const MovingCell cell = moving_cell(piece.cell, interval.stretch, options_.axis_deviation);
-    const MotionBound::Answer answer = interval.bound(cell, 0.0);
+    const MotionBound::Answer answer = interval.bound(cell, enough_);
     if (answer.lower >= -options_.tolerance) return answer.lower;
     look_at(piece, interval, answer.center, cell.allowance);
     if (hopeless_) return answer.lower;
@@ -170,6 +183,7 @@ class Search {
   ToolMotion motion_;
   const CertifyMotionOptions& options_;
   const Context& context_;
+  double enough_;  // mm: bounds beyond this are not sharpened
   MotionCertificate result_;
   std::vector<Piece> pieces_;
   std::vector<Interval> intervals_;
@@ -177,12 +191,17 @@ class Search {
   bool hopeless_ = false;
 };
 
-void check_poses(const std::vector<ToolPose>& poses, const char* tips, const char* axes) {
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const std::string motion = ": motion " + std::to_string(i);
-    require(poses[i].torus_center.allFinite(), tips + motion + " must have finite numbers");
-    require(std::abs(poses[i].axis.norm() - 1) < kUnitTolerance, axes + motion + " must have a unit vector");
-  }
+void check(const Motion& motion, std::size_t index) {
+  const std::string which = ": motion " + std::to_string(index);
+  const auto check_pose = [&](const ToolPose& pose, const char* tips, const char* axes) {
+    require(pose.torus_center.allFinite(), tips + which + " must have finite numbers");
+    require(std::abs(pose.axis.norm() - 1) < kUnitTolerance, axes + which + " must have a unit vector");
+  };
+  check_pose(motion.from, "tips", "axes");
+  check_pose(motion.to, "tips_to", "axes_to");
+  require(std::isfinite(motion.options.tolerance), "tolerance_mm" + which + " must be finite");
+  require(std::isfinite(motion.options.axis_deviation) && motion.options.axis_deviation >= 0,
+          "axis_deviation_deg" + which + " must not be negative");
 }
 
 }  // namespace
@@ -198,25 +217,17 @@ MotionCertificate certify_motion(const CellTree& tree,
   return Search(tree, tool, from, to, options, context).run();
 }
 
-std::vector<MotionCertificate> certify_motions(const SurfaceModel& model,
+std::vector<MotionCertificate> certify_motions(const CellTree& tree,
                                                const Tool& tool,
-                                               const std::vector<ToolPose>& from,
-                                               const std::vector<ToolPose>& to,
-                                               const CertifyMotionOptions& options,
+                                               const std::vector<Motion>& motions,
                                                Context& context) {
   check_tool(tool);
-  require(from.size() == to.size(), "tips, axes, tips_to and axes_to must have the same length");
-  check_poses(from, "tips", "axes");
-  check_poses(to, "tips_to", "axes_to");
-  require(std::isfinite(options.tolerance) && options.tolerance >= 0, "tolerance_mm must not be negative");
-  require(std::isfinite(options.axis_deviation) && options.axis_deviation >= 0,
-          "axis_deviation_deg must not be negative");
-  const CellTree tree(model, tool.radius() * kLeafPerRadius);
-  std::vector<MotionCertificate> result(from.size());
-  context.start(from.size());
-  for_each_range(from.size(), 1, context, [&](std::size_t begin, std::size_t end) {
+  for (std::size_t i = 0; i < motions.size(); ++i) check(motions[i], i);
+  std::vector<MotionCertificate> result(motions.size());
+  context.start(motions.size());
+  for_each_range(motions.size(), 1, context, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      result[i] = certify_motion(tree, tool, from[i], to[i], options, context);
+      result[i] = certify_motion(tree, tool, motions[i].from, motions[i].to, motions[i].options, context);
   });
   return result;
 }

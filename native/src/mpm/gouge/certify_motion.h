@@ -14,7 +14,8 @@ namespace mpm {
 
 struct MotionCertificate {
   Verdict verdict = Verdict::undecided;
-  double lo = -kInfinity;         // mm: the clearance is proven never to be less (0 where nothing came near)
+  // mm: the clearance is proven never to be less (where nothing came near: 0, or what was asked for)
+  double lo = -kInfinity;
   double hi = kInfinity;          // mm: the clearance at the witness
   double time = kNaN;             // of the witness, 0 to 1
   Vec3 s = Vec3::Constant(kNaN);  // the witness: a surface point
@@ -22,7 +23,8 @@ struct MotionCertificate {
 };
 
 struct CertifyMotionOptions {
-  double tolerance = 0.01;         // mm: what may be cut in and still be called free
+  // mm: what may be cut in and still be called free; negative: the clearance that free asks for
+  double tolerance = 0.01;
   double axis_deviation = 0.0;     // radians: what the real axis may be off the great circle
   std::uint32_t budget = 100'000;  // cells; beyond it the verdict is undecided
 };
@@ -31,7 +33,8 @@ struct CertifyMotionOptions {
 // (tip on a straight line, axis on a great circle, both even in time), the real axis being off by at most
 // axis_deviation. free: lo >= -tolerance; gouge: the tool on the great circle cuts deeper than the tolerance
 // at the witness; undecided: the budget ran out, or a point was found so deep that the deviation could take
-// it beyond the tolerance, or the call was cancelled. Unless free, lo is -infinity.
+// it beyond the tolerance, or the call was cancelled. Unless free, lo is -infinity. A motion whose swept box
+// keeps off that of all faces takes no cell.
 //
 // Pieces of trimmed faces too small to tell from their border count as
 // surface, as in certify_pose.
@@ -42,14 +45,18 @@ MotionCertificate certify_motion(const CellTree& tree,
                                  const CertifyMotionOptions& options,
                                  const Context& context);
 
+// One move, and what is asked of it.
+struct Motion {
+  ToolPose from, to;
+  CertifyMotionOptions options;
+};
+
 // Every motion in parallel; the result does not depend on the number of threads. Motions that a cancel left
-// out are undecided. Throws std::invalid_argument for arrays of different length, numbers that are not
-// finite, axes that are not unit vectors, and a tolerance or deviation that is negative.
-std::vector<MotionCertificate> certify_motions(const SurfaceModel& model,
+// out are undecided. Throws std::invalid_argument for numbers that are not finite, axes that are not unit
+// vectors, and a deviation that is negative.
+std::vector<MotionCertificate> certify_motions(const CellTree& tree,
                                                const Tool& tool,
-                                               const std::vector<ToolPose>& from,
-                                               const std::vector<ToolPose>& to,
-                                               const CertifyMotionOptions& options,
+                                               const std::vector<Motion>& motions,
                                                Context& context);
 
 }  // namespace mpm

@@ -6,12 +6,12 @@
 #include "mpm/base/error.h"
 #include "mpm/base/parallel.h"
 #include "mpm/gouge/clearance_sampler.h"
+#include "mpm/gouge/judge_cells.h"
 
 namespace mpm {
 namespace {
 
-constexpr std::size_t kGrain = 4;           // poses a task
-constexpr double kLeafPerRadius = 1.0 / 6;  // finest precomputed cells against the cutter's radius
+constexpr std::size_t kGrain = 4;  // poses a task
 
 constexpr double kAsDeep = 1.001;  // a point less than this much deeper is not looked for
 constexpr int kMostRounds = 64;
@@ -64,7 +64,7 @@ std::vector<Certificate> certify_poses(const SurfaceModel& model,
                                        double tolerance,
                                        Context& context) {
   require(std::isfinite(tolerance) && tolerance > 0, "tolerance_mm must be a positive number of mm");
-  const CellTree tree(model, tool.radius() * kLeafPerRadius);
+  const CellTree tree = judge_cells(model, tool);
   const ClearanceSampler sampler(model, tool);
   const Judge judge{tree, sampler, tool, tolerance};
   std::vector<Certificate> found(poses.size());

@@ -16,6 +16,8 @@ constexpr int kMaxRounds = 20;
 constexpr double kMaxSplit = 8;
 // A turn of more than half a turn by more than this (radians) is a rewind; less is rounding.
 constexpr double kHalfTurnSlack = 1e-9;
+// Of the axis tolerance, what the pole may take away before a move that passes it is not split any finer.
+constexpr double kPoleShare = 0.5;
 
 // For each move the fractions, rising to 1, at which its pieces end.
 using Fractions = std::vector<std::vector<double>>;
@@ -45,9 +47,24 @@ MotionDeviation deviation(const KinematicChain& chain,
   return {0, axis_deviation_bound(chain, joints.rotary[end - 1], joints.rotary[end])};
 }
 
-// The deviation as a multiple of what is allowed.
-double excess(const RefineOptions& options, const MotionDeviation& off) {
-  return std::max(off.tip / options.tip_tolerance, off.axis / options.axis_tolerance);
+// How far the axis is off that of the pose: inside the pole cone the first rotary axis stands where it is.
+double off_pose(const KinematicChain& chain, const RefinedPath& refined, std::size_t i) {
+  if (!refined.joints.at_pole[i]) return 0;
+  return angle_between(tool_axis(chain, refined.joints.rotary[i]), refined.poses.axis[i]);
+}
+
+// By how much (radians) a move's ends put the axis off the meant great circle, at any time. Two great circles
+// between ends that differ by d differ by at most d / cos(angle / 2) on their way.
+double off_ends(const KinematicChain& chain, const RefinedPath& refined, std::size_t end) {
+  const double most = std::max(off_pose(chain, refined, end - 1), off_pose(chain, refined, end));
+  if (most == 0) return 0;
+  return most / std::cos(angle_between(refined.poses.axis[end - 1], refined.poses.axis[end]) / 2);
+}
+
+// The deviation as a multiple of what is allowed beside what the ends take away.
+double excess(const RefineOptions& options, const MotionDeviation& off, double off_ends) {
+  const double axis = std::max(options.axis_tolerance - off_ends, kPoleShare * options.axis_tolerance);
+  return std::max(off.tip / options.tip_tolerance, off.axis / axis);
 }
 
 // True when the move that ends there is to be split where it does not keep the tolerances.
@@ -62,10 +79,12 @@ bool may_split(const RefineOptions& options, const RefinedPath& refined, std::si
 // How many pieces this one should become: the deviation falls with their square, the step with their number.
 double pieces_needed(const KinematicChain& chain,
                      const RefineOptions& options,
-                     const JointPath& joints,
+                     const RefinedPath& refined,
                      std::size_t end) {
+  const JointPath& joints = refined.joints;
+  const MotionDeviation off = deviation(chain, options, joints, end);
   const double step = (joints.rotary[end] - joints.rotary[end - 1]).cwiseAbs().maxCoeff();
-  const double needed = std::max(std::sqrt(excess(options, deviation(chain, options, joints, end))),
+  const double needed = std::max(std::sqrt(excess(options, off, off_ends(chain, refined, end))),
                                  step / options.max_rotary_step);
   return std::min(std::ceil(needed), kMaxSplit);
 }
@@ -80,8 +99,7 @@ std::vector<double> split_further(const KinematicChain& chain,
   double start = 0.0;
   for (std::size_t k = 0; k < ends.size(); ++k) {
     const std::size_t end = first + k;
-    const double pieces =
-        may_split(options, refined, end) ? pieces_needed(chain, options, refined.joints, end) : 1;
+    const double pieces = may_split(options, refined, end) ? pieces_needed(chain, options, refined, end) : 1;
     for (double n = 1; n < pieces; ++n) result.push_back(start + n / pieces * (ends[k] - start));
     result.push_back(ends[k]);
     start = ends[k];
@@ -109,10 +127,13 @@ bool split_bad_pieces(const KinematicChain& chain,
 
 std::vector<std::uint8_t> kept(const KinematicChain& chain,
                                const RefineOptions& options,
-                               const JointPath& joints) {
-  std::vector<std::uint8_t> result(joints.rotary.size(), 1);
-  for (std::size_t i = 1; i < result.size(); ++i)
-    result[i] = excess(options, deviation(chain, options, joints, i)) <= 1;
+                               const RefinedPath& refined) {
+  std::vector<std::uint8_t> result(refined.poses.size(), 1);
+  for (std::size_t i = 1; i < result.size(); ++i) {
+    const MotionDeviation off = deviation(chain, options, refined.joints, i);
+    result[i] =
+        off.tip <= options.tip_tolerance && off.axis + off_ends(chain, refined, i) <= options.axis_tolerance;
+  }
   return result;
 }
 
@@ -129,7 +150,7 @@ RefinedPath refine(const KinematicChain& chain, const PosePath& path, const Refi
     refined.joints = joint_path(chain, refined.poses, options.joints);
     if (!split_bad_pieces(chain, options, refined, fractions)) break;
   }
-  refined.keeps = kept(chain, options, refined.joints);
+  refined.keeps = kept(chain, options, refined);
   return refined;
 }
 

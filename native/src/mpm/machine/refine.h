@@ -18,16 +18,18 @@ struct RefineOptions {
 struct RefinedPath {
   PosePath poses;                     // the given poses and those inserted between them
   std::vector<std::uint32_t> source;  // index of the given move that each move is part of
-  std::vector<std::uint8_t> keeps;  // 1: the move keeps axis_tolerance and tip_tolerance; by deviation_bound
+  // 1: the move keeps axis_tolerance and tip_tolerance, by deviation_bound and what the pole cone takes
+  std::vector<std::uint8_t> keeps;
   JointPath joints;
 };
 
 // Splits the cutting moves, where they need it, until each piece keeps axis_tolerance, tip_tolerance and
-// max_rotary_step, all along it (deviation_bound): inserted tips lie on the straight line, inserted axes on
-// the great circle. All joints are chosen anew for the refined path. The given poses are all kept, bit for
-// bit, in their order. No move gets more than kMaxPieces pieces; one that needs more (it goes through the
-// pole itself, where the first axis has to turn in no distance) ends with the tolerance not kept, and so does
-// a rapid in which the rotary solution changes or an axis rewinds.
+// max_rotary_step, all along it (deviation_bound, and what the axis is off the poses in the pole cone):
+// inserted tips lie on the straight line, inserted axes on the great circle. All joints are chosen anew for
+// the refined path. The given poses are all kept, bit for bit, in their order. No move gets more than
+// kMaxPieces pieces; one that needs more (it goes through the pole itself, where the first axis has to turn
+// in no distance) ends with the tolerance not kept, and so does a rapid in which the rotary solution changes
+// or an axis rewinds.
 inline constexpr std::size_t kMaxPieces = 4096;
 RefinedPath refine(const KinematicChain& chain, const PosePath& path, const RefineOptions& options);
 

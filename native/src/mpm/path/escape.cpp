@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
+
+#include "mpm/gouge/certify_motion.h"
 
 namespace mpm {
 namespace {
@@ -59,27 +62,52 @@ Escape try_direction(const ClearanceSampler& sampler,
   double least = options.approach_distance;
   for (const Sample& s : samples) least = std::min(least, s.clearance);
   const double allowed = std::min(samples.front().clearance, 0.0) - options.gouge;
-  return {direction, length, plunge_length(samples, options.approach_distance), least, least < allowed};
+  return {
+      direction, length, plunge_length(samples, options.approach_distance), least, least < allowed, false};
+}
+
+// The two parts of a free way, on which the tool goes up, down or both.
+void prove(const CellTree& cells,
+           const Tool& tool,
+           const TipPose& position,
+           const EscapeOptions& options,
+           const Context& context,
+           Escape& way) {
+  const auto pose = [&](const Vec3& tip) { return ToolPose::from_tip(tool, tip, position.axis); };
+  const ToolPose start = pose(way.plunge_start(position.tip));
+  CertifyMotionOptions ask;
+  ask.axis_deviation = options.axis_deviation;
+  ask.tolerance = options.depth - options.tip_deviation;
+  const MotionCertificate plunge = certify_motion(cells, tool, pose(position.tip), start, ask, context);
+  if (plunge.verdict != Verdict::free) return;
+  ask.tolerance = -options.tip_deviation;
+  way.proven =
+      certify_motion(cells, tool, start, pose(way.top(position.tip)), ask, context).verdict == Verdict::free;
+  if (way.proven) way.clearance = std::min(plunge.lo, options.tip_deviation) - options.tip_deviation;
+}
+
+bool is_better(const Escape& a, const Escape& b) {
+  return a.blocked != b.blocked ? b.blocked : a.blocked && a.clearance > b.clearance;
 }
 
 }  // namespace
 
 Escape find_escape(const ClearanceSampler& sampler,
+                   const CellTree& cells,
                    const Tool& tool,
                    const TipPose& position,
                    const EscapeOptions& options,
                    const Context& context) {
-  Escape best{};
-  bool first = true;
+  std::optional<Escape> best;
   for (const Vec3& way : {position.axis, Vec3(position.axis + Vec3::UnitZ()), Vec3(Vec3::UnitZ())}) {
     const Vec3 direction = way.normalized();
     if (direction.z() < std::cos(kSteepestWay)) continue;
-    const Escape escape = try_direction(sampler, tool, position, direction, options, context);
-    if (!escape.blocked) return escape;
-    if (first || escape.clearance > best.clearance) best = escape;
-    first = false;
+    Escape escape = try_direction(sampler, tool, position, direction, options, context);
+    if (!escape.blocked) prove(cells, tool, position, options, context, escape);
+    if (escape.proven) return escape;
+    if (!best || is_better(escape, *best)) best = escape;
   }
-  return best;
+  return *best;  // along z is always tried
 }
 
 }  // namespace mpm

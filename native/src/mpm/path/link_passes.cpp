@@ -29,6 +29,11 @@ void check_options(const LinkOptions& o) {
   check_option(o.cut_length_max, "cut_length_max_mm");
   check_option(o.cut_turn_max, "cut_turn_max_deg");
   check_option(o.rapid_turn_max, "rapid_turn_max_deg");
+  check_option(o.depth, "depth_mm");
+  require(std::isfinite(o.tip_deviation) && o.tip_deviation >= 0 && o.tip_deviation <= o.depth,
+          "tip_deviation_mm must be at least 0 and at most depth_mm");
+  require(std::isfinite(o.axis_deviation) && o.axis_deviation >= 0,
+          "axis_deviation_deg must not be negative");
 }
 
 void check_positions(const PathPositions& p) {
@@ -51,12 +56,9 @@ struct Run {
 
 class Linker {
  public:
-  Linker(const SurfaceModel& model,
-         const Tool& tool,
-         const PathPositions& positions,
-         const LinkOptions& options)
-      : sampler_(model, tool), tool_(tool), positions_(positions), options_(options) {
-    safe_z_ = safe_z(model.bounds().hi.z());
+  Linker(const CellTree& cells, const Tool& tool, const PathPositions& positions, const LinkOptions& options)
+      : cells_(cells), sampler_(cells.model(), tool), tool_(tool), positions_(positions), options_(options) {
+    safe_z_ = safe_z(cells.model().bounds().hi.z());
   }
 
   ToolPath link(Context& context);
@@ -79,12 +81,14 @@ class Linker {
            std::int64_t position,
            std::size_t of,
            double clearance,
-           bool blocked);
+           bool proven,
+           bool blocked = false);
   void add_traverse(const TipPose& from, const TipPose& to, std::size_t target);
   void add_approach(std::size_t i, const Escape& escape);
   void add_retract(std::size_t i, const Escape& escape);
   void add_run(const Run& run, const Escape& in, const Escape& out);
 
+  const CellTree& cells_;
   ClearanceSampler sampler_;
   const Tool& tool_;
   const PathPositions& positions_;
@@ -161,20 +165,33 @@ std::vector<Run> Linker::runs() const {
 
 Escape Linker::escape(std::size_t i, const Context& context) const {
   return find_escape(sampler_,
+                     cells_,
                      tool_,
                      pose(i),
-                     {safe_z_, options_.approach_distance, options_.gouge, options_.check_step},
+                     {safe_z_,
+                      options_.approach_distance,
+                      options_.gouge,
+                      options_.check_step,
+                      options_.depth,
+                      options_.tip_deviation,
+                      options_.axis_deviation},
                      context);
 }
 
-void Linker::add(
-    MoveKind kind, const TipPose& to, std::int64_t position, std::size_t of, double clearance, bool blocked) {
+void Linker::add(MoveKind kind,
+                 const TipPose& to,
+                 std::int64_t position,
+                 std::size_t of,
+                 double clearance,
+                 bool proven,
+                 bool blocked) {
   path_.kind.push_back(kind);
   path_.tip.push_back(to.tip);
   path_.axis.push_back(to.axis);
   path_.position.push_back(position);
   path_.pass.push_back(positions_.pass[of]);
   path_.clearance.push_back(clearance);
+  path_.proven.push_back(proven);
   path_.blocked.push_back(blocked);
 }
 
@@ -188,18 +205,18 @@ void Linker::add_traverse(const TipPose& from, const TipPose& to, std::size_t ta
         -1,
         target,
         options_.safe_clearance,
-        false);
+        true);
 }
 
 void Linker::add_approach(std::size_t i, const Escape& way) {
   const TipPose at = pose(i);
-  add(MoveKind::rapid, {way.plunge_start(at.tip), at.axis}, -1, i, options_.approach_distance, false);
-  add(MoveKind::plunge, at, std::int64_t(i), i, way.clearance, way.blocked);
+  add(MoveKind::rapid, {way.plunge_start(at.tip), at.axis}, -1, i, options_.approach_distance, way.proven);
+  add(MoveKind::plunge, at, std::int64_t(i), i, way.clearance, way.proven, way.blocked);
 }
 
 void Linker::add_retract(std::size_t i, const Escape& way) {
   const TipPose at = pose(i);
-  add(MoveKind::retract, {way.top(at.tip), at.axis}, -1, i, way.clearance, way.blocked);
+  add(MoveKind::retract, {way.top(at.tip), at.axis}, -1, i, way.clearance, way.proven, way.blocked);
 }
 
 void Linker::add_run(const Run& run, const Escape& in, const Escape& out) {
@@ -208,7 +225,7 @@ void Linker::add_run(const Run& run, const Escape& in, const Escape& out) {
   add_traverse(path_.size() == 0 ? top : TipPose{path_.tip.back(), path_.axis.back()}, top, run.first);
   add_approach(run.first, in);
   for (std::size_t i = run.first + 1; i <= run.last; ++i)
-    add(MoveKind::cut, pose(i), std::int64_t(i), i, along_cut_[i], false);
+    add(MoveKind::cut, pose(i), std::int64_t(i), i, along_cut_[i], !positions_.cut_clearance.empty());
   add_retract(run.last, out);
 }
 
@@ -235,7 +252,7 @@ ToolPath Linker::link(Context& context) {
 
 }  // namespace
 
-ToolPath link_passes(const SurfaceModel& model,
+ToolPath link_passes(const CellTree& cells,
                      const Tool& tool,
                      const PathPositions& positions,
                      const LinkOptions& options,
@@ -243,7 +260,7 @@ ToolPath link_passes(const SurfaceModel& model,
   check_tool(tool);
   check_options(options);
   check_positions(positions);
-  return Linker(model, tool, positions, options).link(context);
+  return Linker(cells, tool, positions, options).link(context);
 }
 
 }  // namespace mpm

@@ -3,7 +3,7 @@
 
 #include "mpm/base/context.h"
 #include "mpm/path/tool_path.h"
-#include "mpm/surface/surface_model.h"
+#include "mpm/surface/cell_tree.h"
 #include "mpm/tool/tool.h"
 
 namespace mpm {
@@ -30,6 +30,9 @@ struct LinkOptions {
   double cut_length_max = 10.0;        // mm of the tip, between two positions that one cut may join
   double cut_turn_max = radians(15);   // radians of the axis, the same
   double rapid_turn_max = radians(5);  // radians of the axis in one rapid move
+  double depth = 0.01;        // mm, what a proven plunge or retract may cut in, its deviations included
+  double tip_deviation = 0;   // mm, what the control may be off: the tip from its line ...
+  double axis_deviation = 0;  // radians, ... and the axis from its great circle
 };
 
 // Joins the usable positions in their order. Every usable position is the end of exactly one cut or plunge,
@@ -38,21 +41,22 @@ struct LinkOptions {
 // A cut joins a position with the next one (index + 1) when both are usable and of one pass, their tips and
 // axes are within cut_length_max and cut_turn_max, and the cut was proven, or, where nothing is proven, the
 // tool at poses check_step apart between them cuts no more than cut_gouge deeper than at its ends. Every
-// other gap, the start and the end are bridged by: retract along the axis (or, where that is blocked, more
-// along z: escape.h) to the safe plane; rapids on the plane, turning the axis on a great circle; rapid down
-// to approach_distance; plunge.
+// other gap, the start and the end are bridged by: retract along the axis (or, where that cannot be proven,
+// more along z: escape.h) to the safe plane; rapids on the plane, turning the axis on a great circle; rapid
+// down to approach_distance; plunge.
 //
 // Guarantees: the first and last poses lie on the safe plane, where the whole tool (shank and holder too) is
 // at least safe_clearance above all surfaces; so do all rapids but those down to a position, which keep
-// approach_distance clear as far as sampling tells. Plunges and retracts cut no more than `gouge` deeper than
-// their position, sampled, or are marked `blocked`. One-way and zigzag passes differ only in the positions'
-// order. A cancelled call returns an empty path.
+// approach_distance clear as far as sampling tells. Plunges and retracts that are `proven` cut in no deeper
+// than `depth`, rapids that are `proven` not at all, the real tip and axis being off by their deviations; the
+// others are sampled, and `blocked` where a sample is more than `gouge` deeper than their position. One-way
+// and zigzag passes differ only in the positions' order. A cancelled call returns an empty path.
 //
 // Clearances other than the proven ones are sampled (gouge/clearance_sampler.h), of the tool's whole body
 // against all faces: no proof. Throws std::invalid_argument for arrays of different length, usable positions
 // with a non-finite tip or an axis that is not a unit vector from the +z side, and options that are not
 // positive.
-ToolPath link_passes(const SurfaceModel& model,
+ToolPath link_passes(const CellTree& cells,
                      const Tool& tool,
                      const PathPositions& positions,
                      const LinkOptions& options,

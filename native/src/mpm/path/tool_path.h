@@ -23,9 +23,10 @@ struct ToolPath {
   std::vector<Vec3> axis;              // unit, tip to spindle
   std::vector<std::int64_t> position;  // index of the position that the move ends in, -1: none
   std::vector<std::int32_t> pass;      // of the position it leaves (retract) or makes for (all others)
-  std::vector<double> clearance;       // least clearance found along the move, or, of a proven cut, its
-                                       // proven lower bound, mm; large ones are cut off
+  std::vector<double> clearance;       // least clearance found along the move, or, of a proven move that is
+                                       // no rapid, its proven lower bound, mm; large ones are cut off
   std::vector<std::uint8_t> blocked;   // 1: no free way was found, the move runs into the part
+  std::vector<std::uint8_t> proven;    // 1: it was proven that the move cuts no deeper than it may
 
   std::size_t size() const { return kind.size(); }
 };

@@ -8,11 +8,11 @@
 #include "mpm/contact/curvature_limit.h"
 #include "mpm/contact/merging_contact.h"
 #include "mpm/gouge/certify_pose.h"
+#include "mpm/gouge/judge_cells.h"
 
 namespace mpm {
 namespace {
 
-constexpr double kLeafPerRadius = 1.0 / 6;   // finest precomputed cells against the cutter's radius
 constexpr double kStartPerRadius = 1.0 / 4;  // cells whose centres start the searches
 constexpr double kSharpness = 1e-9;          // mm: contacts are found to this depth
 constexpr double kSharpRoundoff = 4096 * kRoundoff;
@@ -42,7 +42,8 @@ class Exact final : public Method {
   Exact(const SurfaceModel& model, const Tool& tool, const MethodOptions& options)
       : model_(model),
         tool_(tool),
-        tree_(model, tool.radius() * kLeafPerRadius),
+        cells_(options.cells ? options.cells : std::make_shared<CellTree>(judge_cells(model, tool))),
+        tree_(*cells_),
         tilt_max_(options.tilt_max),
         spin_(options.spin) {
     const Box3& box = model.bounds();
@@ -110,7 +111,8 @@ class Exact final : public Method {
 
   const SurfaceModel& model_;
   Tool tool_;
-  CellTree tree_;
+  std::shared_ptr<const CellTree> cells_;
+  const CellTree& tree_;
   double tilt_max_, spin_;
   double noise_;  // mm: depths down to this are rounding
   CertifyOptions judge_;

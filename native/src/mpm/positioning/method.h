@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mpm/base/context.h"
+#include "mpm/surface/cell_tree.h"
 #include "mpm/surface/surface_model.h"
 #include "mpm/tool/tool.h"
 
@@ -60,6 +61,8 @@ struct MethodOptions {
   double tilt_max = kPi / 4;              // radians
   double spin = 0;                        // radians; methods that cannot spin refuse any other value
   std::map<std::string, double> numbers;  // the method's own, by name; unknown names are refused
+  // judge_cells() of the model and the tool, to be shared; null: a method that needs them makes its own.
+  std::shared_ptr<const CellTree> cells = nullptr;
 };
 
 // A first contact that is given instead of dropped to: the tool is to touch at (u, v) of a face with the
