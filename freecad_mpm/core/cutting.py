@@ -167,7 +167,7 @@ def cut(
     resolution_mm: distance of the dexels and of the points of the deviation; the values themselves do not depend on it.
     box:           lo, hi (set-up frame) of the stock; default: the faces' box, and some base below it. A small box with
                    a small resolution looks closely at one place: points outside of it are left out.
-    with_stock:    cut the block too, for `Cut.mesh`; False measures the deviation only, in about a third of the time.
+    with_stock:    cut the block too, for `Cut.mesh`; False measures the deviation only, in a small part of the time.
     on_progress:   called in this thread as on_progress(stage, fraction 0..1).
     cancel:        a threading.Event or a function; when it is set or true, Cancelled is raised within 0.1 s.
     threads:       0: all cores. The result does not depend on it.
@@ -235,10 +235,12 @@ def cut_rays(
 
 def _way_out(points: Floats, directions: Floats, box: Box) -> Floats:
     """(N,): how far each ray goes until it leaves the box, 0 for points outside."""
+    far = np.full(len(points), np.inf)
     with np.errstate(divide="ignore", invalid="ignore"):
-        far = np.where(directions > 0, box.hi - points, box.lo - points) / directions
-    far = np.where(directions == 0, np.inf, far)
-    return np.asarray(np.maximum(far.min(axis=1), 0.0))
+        for k in range(3):
+            way = (np.where(directions[:, k] > 0, box.hi[k], box.lo[k]) - points[:, k]) / directions[:, k]
+            np.minimum(far, np.where(directions[:, k] == 0, np.inf, way), out=far)
+    return np.maximum(far, 0.0)
 
 
 def _cut_dexels(sweep: Any, stock: Box, resolution_mm: float, stages: Stages, stage: str) -> Any:

@@ -32,14 +32,25 @@ inline std::vector<double> to_doubles(const DoubleArray& a, const char* name) {
   return {a.data(), a.data() + a.size()};
 }
 
-// (..., Width) -> that many fixed-size vectors.
+// How many vectors an array (..., Width) holds.
 template <class Vector>
-std::vector<Vector> to_vectors(const DoubleArray& a, const char* name) {
+std::size_t vectors_in(const DoubleArray& a, const char* name) {
   constexpr py::ssize_t width = Vector::RowsAtCompileTime;
   require(a.ndim() >= 1 && a.shape(a.ndim() - 1) == width,
           std::string(name) + " must have shape (..., " + std::to_string(width) + "), got " + shape_of(a));
-  std::vector<Vector> result(std::size_t(a.size() / width));
-  for (std::size_t i = 0; i < result.size(); ++i) result[i] = Eigen::Map<const Vector>(a.data() + i * width);
+  return std::size_t(a.size() / width);
+}
+
+template <class Vector>
+Eigen::Map<const Vector> vector_at(const DoubleArray& a, std::size_t i) {
+  return Eigen::Map<const Vector>(a.data() + i * std::size_t(Vector::RowsAtCompileTime));
+}
+
+// (..., Width) -> that many fixed-size vectors.
+template <class Vector>
+std::vector<Vector> to_vectors(const DoubleArray& a, const char* name) {
+  std::vector<Vector> result(vectors_in<Vector>(a, name));
+  for (std::size_t i = 0; i < result.size(); ++i) result[i] = vector_at<Vector>(a, i);
   return result;
 }
 

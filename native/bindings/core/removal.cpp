@@ -36,12 +36,14 @@ py::tuple cut_free_rays(const ToolSweep& sweep,
                         const std::optional<IntArray>& move,
                         double below_mm,
                         Context& context) {
-  const std::vector<Vec3> from = to_vectors<Vec3>(origins, "origins"),
-                          to = to_vectors<Vec3>(directions, "directions");
-  require(from.size() == to.size(), "origins and directions must have the same shape (N, 3)");
+  const std::size_t count = vectors_in<Vec3>(origins, "origins");
+  require(count == vectors_in<Vec3>(directions, "directions"),
+          "origins and directions must have the same shape (N, 3)");
   NormalRays rays{{}, to_doubles(height, "height"), {}, below_mm};
-  for (std::size_t i = 0; i < from.size(); ++i) rays.rays.push_back({from[i], to[i]});
-  rays.move.assign(from.size(), -1);
+  rays.rays.reserve(count);
+  for (std::size_t i = 0; i < count; ++i)
+    rays.rays.push_back({vector_at<Vec3>(origins, i), vector_at<Vec3>(directions, i)});
+  rays.move.assign(count, -1);
   if (move) rays.move.assign(move->data(), move->data() + move->size());
   {
     py::gil_scoped_release release;

@@ -3,6 +3,7 @@
 #include <random>
 
 #include "mpm/removal/normal_rays.h"
+#include "mpm/removal/ray_order.h"
 
 namespace mpm {
 namespace {
@@ -121,6 +122,43 @@ TEST(NormalRays, RapidsTakeNothing) {
   SweptPath path = straight({0, 0, 0}, {10, 0, 0});
   path.removes = {1, 0};
   EXPECT_EQ(cut(upright({{5, 0}}, 5), kBall, path).height[0], 5.0);
+}
+
+// Square of `side` x `side` rays 0.5 mm apart about the origin.
+std::vector<Vec2> square(int side) {
+  std::vector<Vec2> at;
+  for (int i = 0; i < side; ++i)
+    for (int j = 0; j < side; ++j) at.emplace_back(0.5 * i - 0.25 * side, 0.5 * j - 0.25 * side);
+  return at;
+}
+
+// How many tiles of rays each stroke of a path is tried on.
+double tiles_a_stroke(const std::vector<Ray>& rays, const ToolSweep& sweep) {
+  const std::vector<std::uint32_t> order = near_together(rays);
+  std::size_t tried = 0;
+  std::vector<std::uint32_t> strokes;
+  for (std::size_t first = 0; first < order.size(); first += kTileRays) {
+    Box3 box;
+    for (std::size_t i = first; i < std::min(first + kTileRays, order.size()); ++i)
+      box.extend(rays[order[i]].origin);
+    sweep.low_strokes_near(box, strokes);
+    tried += strokes.size();
+  }
+  return double(tried) / double(sweep.strokes().size());
+}
+
+// The rays of a tile lie together, so the same path costs the same on a larger part.
+TEST(NormalRays, AMoveCostsTheRaysNearItWhateverThePartsSize) {
+  std::vector<TipPose> poses;
+  for (int i = 0; i < 40; ++i)
+    poses.push_back({{i % 2 ? 9.0 : -9.0, 0.5 * i - 10, 0}, Vec3(0.1, 0.2, 1).normalized()});
+  const ToolSweep sweep(kTorus, polyline(poses));
+  const double small = tiles_a_stroke(upright(square(128), 5).rays, sweep);
+  // The cutter's square, 27.4 mm wide with the stroke, over tiles of 4 mm and their border.
+  EXPECT_LT(small, 75);
+  EXPECT_GT(small, 25);
+  EXPECT_NEAR(tiles_a_stroke(upright(square(256), 5).rays, sweep), small, 0.1 * small);
+  EXPECT_NEAR(tiles_a_stroke(upright(square(512), 5).rays, sweep), small, 0.1 * small);
 }
 
 TEST(NormalRays, SameBytesForAnyThreadCountAndOrder) {

@@ -96,12 +96,12 @@ double DexelField::order_key(const ToolSweep& sweep, std::uint32_t stroke, const
   const StrokePose& pose = sweep.strokes()[stroke].middle;
   if (axis_ != 2) {
     point[axis_] = std::clamp(pose.center[axis_], box.lo[axis_], box.hi[axis_]);
-    return sweep.distance(stroke, point);
+    return sweep.depth(stroke, point);
   }
   double entry = kInfinity;
   const Ray upright{{point.x(), point.y(), 0}, Vec3::UnitZ()};
   sweep.visit_spans(
-      stroke, sweep.pieces_near(stroke, box), upright, box.lo.z(), box.hi.z(), [&](double from, double) {
+      stroke, sweep.pieces_near(stroke, ~0u, box), upright, box.lo.z(), box.hi.z(), [&](double from, double) {
         entry = std::min(entry, from);
       });
   return entry;
@@ -128,15 +128,14 @@ void DexelField::cut_tile(std::size_t index, const ToolSweep& sweep, const Conte
   };
   Box3 box = bounds();
   std::vector<std::uint32_t> strokes;
-  if (!box.empty())
-    order_strokes(
-        sweep, box, [&](std::uint32_t i) { return order_key(sweep, i, box); }, strokes);
+  if (!box.empty()) sweep.strokes_near(box, strokes);
   if (strokes.empty()) return;
+  order_strokes([&](std::uint32_t i) { return order_key(sweep, i, box); }, strokes);
   SpanList gaps;
   std::size_t tried = 0;
   for (const std::uint32_t stroke : strokes) {
     if (context.cancelled()) return;
-    const std::uint32_t pieces = sweep.pieces_near(stroke, box);
+    const std::uint32_t pieces = sweep.pieces_near(stroke, ~0u, box);
     if (pieces == 0) continue;
     for (std::size_t i = 0; i < kTileRays; ++i) cut_dexel(spans[i], rays[i], sweep, stroke, pieces, gaps);
     if (++tried % kStrokesPerBox == 0) box = bounds();

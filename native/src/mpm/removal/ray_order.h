@@ -15,14 +15,10 @@ inline constexpr std::size_t kTileRays = 64;
 // Numbers of the rays, those whose origins are near each other next to each other (Morton order).
 std::vector<std::uint32_t> near_together(const std::vector<Ray>& rays);
 
-// The strokes that may meet `box`, in ascending order of key(stroke), a number: what the first ones take away
-// need not be looked at for the others.
+// Puts strokes in ascending order of key(stroke), a number: what the first ones take away need not be looked
+// at for the others.
 template <class Key>
-void order_strokes(const ToolSweep& sweep,
-                   const Box3& box,
-                   const Key& key,
-                   std::vector<std::uint32_t>& strokes) {
-  sweep.strokes_near(box, strokes);
+void order_strokes(const Key& key, std::vector<std::uint32_t>& strokes) {
   std::vector<std::pair<double, std::uint32_t>> keys;
   keys.reserve(strokes.size());
   for (const std::uint32_t i : strokes) keys.emplace_back(key(i), i);

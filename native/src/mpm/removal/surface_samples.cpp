@@ -82,6 +82,8 @@ void add_loops(const FaceGrid& grid, double spacing, std::vector<Vec2>& at) {
 
 FaceSamples face_samples(const FaceGrid& grid, double spacing) {
   FaceSamples samples;
+  samples.at.reserve(std::size_t(grid.nodes()));
+  samples.number.reserve(std::size_t(grid.nodes()));
   for (std::size_t j = grid.v0; j <= grid.v1; ++j)
     for (std::size_t i = grid.u0; i <= grid.u1; ++i) {
       const Vec2 at(grid.u(i), grid.v(j));
@@ -100,6 +102,7 @@ void add_triangles(const FaceGrid& grid,
   const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     if (a != kNone && b != kNone && c != kNone) result.triangles.push_back({first + a, first + b, first + c});
   };
+  result.triangles.reserve(result.triangles.size() + 2 * std::size_t(grid.nodes()));
   for (std::size_t j = 0; j < grid.v1 - grid.v0; ++j)
     for (std::size_t i = 0; i + 1 < grid.width(); ++i) {
       const std::uint32_t* row = &samples.number[j * grid.width() + i];

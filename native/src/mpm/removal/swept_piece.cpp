@@ -312,6 +312,26 @@ Stroke standing(const Stroke& stroke, const StrokePose& pose) {
           still};
 }
 
+// Does the ring keep clear of the ray's point at `hi` during the whole stroke, and do all lower points lie
+// farther from it?
+bool clear_below(const RingShape& ring, const Stroke& stroke, const Ray& ray, double hi) {
+  const Vec3 u = ray.at(hi) - stroke.middle.center;
+  const double z = u.dot(stroke.middle.axis), rise = ray.direction.dot(stroke.middle.axis);
+  const double lever = u.norm() + stroke.length, margin = 0.5 * stroke.motion(lever);
+  const double c = rise - 0.5 * stroke.angle;
+  if (z >= -margin || c <= 0) return false;
+  const double r = std::sqrt(std::max(u.squaredNorm() - z * z, 0.0)), rho = std::abs(r - ring.major);
+  // See recedes: the same for all times at once.
+  const double fall = -z - margin, aside = rho + margin;
+  if (c * c * fall * fall < (1 - c * c) * aside * aside) return false;
+  const double distance = hypotenuse(rho, z) - ring.minor;
+  if (distance > margin) return true;
+  // Of a function that is convex in place and time the tangent is a lower bound.
+  const Reading middle = read_shape(ring, ray.at(hi), ray.direction, stroke.middle);
+  const double tangent = distance - 0.5 * std::abs(middle.rate);
+  return tangent - 0.5 * concavity(ring, margin, r - margin) - stroke.angle * stroke.angle * lever / 8 > 0;
+}
+
 }  // namespace
 
 Span clipped(const Ray& ray, const Span& span, const Box3& box) {
@@ -328,30 +348,8 @@ Span clipped(const Ray& ray, const Span& span, const Box3& box) {
   return part;
 }
 
-bool clear_below(
-    const RingShape& ring, const Stroke& stroke, const Ray& ray, double hi, const Neighbourhood& near) {
-  const Vec3 u = ray.at(hi) - stroke.middle.center;
-  const double z = u.dot(stroke.middle.axis), rise = ray.direction.dot(stroke.middle.axis);
-  const double lever = u.norm() + stroke.length, half = 0.5 * stroke.motion(lever),
-               margin = near.radius + half;
-  const double c = rise - near.spread - 0.5 * stroke.angle;
-  if (z >= -margin || c <= 0) return false;
-  const double r = std::sqrt(std::max(u.squaredNorm() - z * z, 0.0)), rho = std::abs(r - ring.major);
-  // See recedes: the same for all times at once.
-  const double fall = -z - margin, aside = rho + margin;
-  if (c * c * fall * fall < (1 - c * c) * aside * aside) return false;
-  const double distance = hypotenuse(rho, z) - ring.minor;
-  if (distance > margin) return true;
-  // Of a function that is convex in place and time the tangent is a lower bound.
-  const Reading middle = read_shape(ring, ray.at(hi), ray.direction, stroke.middle);
-  const double sideways = std::sqrt(std::max(1 - middle.slope * middle.slope, 0.0));
-  const double tangent =
-      distance - 0.5 * std::abs(middle.rate) - sideways * near.radius - std::abs(middle.slope) * near.along;
-  return tangent - 0.5 * concavity(ring, margin, r - margin) - stroke.angle * stroke.angle * lever / 8 > 0;
-}
-
 Spans swept_spans(const RingShape& ring, const Stroke& stroke, const Ray& ray, double lo, double hi) {
-  if (clear_below(ring, stroke, ray, hi, {})) return {};
+  if (clear_below(ring, stroke, ray, hi)) return {};
   const double middle = crossing(stroke, ray);
   const bool convex = ring.major == 0 || outside_circle(ring, stroke, ray, {lo, hi}, middle);
   Sweep sweep(ring, stroke, ray, convex && stroke.angle * ring.major < kBowTie);

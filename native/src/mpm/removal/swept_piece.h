@@ -51,18 +51,6 @@ Spans swept_spans(const ConeShape& cone, const Stroke& stroke, const Ray& ray, d
 double least_distance(const RingShape& ring, const Stroke& stroke, const Vec3& point);
 double least_distance(const ConeShape& cone, const Stroke& stroke, const Vec3& point);
 
-// Rays near one ray: how far the upper ends of their spans are from its (mm, in all and along it), and how
-// much their directions differ from its (length of the difference).
-struct Neighbourhood {
-  double radius = 0, along = 0, spread = 0;
-};
-
-// May all rays near `ray`, whose span ends at `hi`, be left out of account? True only when the ring keeps
-// clear of the upper ends of their spans during the whole stroke and all lower points of the rays lie farther
-// from it.
-bool clear_below(
-    const RingShape& ring, const Stroke& stroke, const Ray& ray, double hi, const Neighbourhood& near);
-
 inline constexpr double kRayEpsilon = 1e-6;  // mm along a ray
 
 }  // namespace mpm

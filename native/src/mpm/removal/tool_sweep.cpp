@@ -18,6 +18,23 @@ void add_disc(Box3& box, const StrokePose& pose, double z, double radius, double
   box.extend(Vec3(c + spread));
 }
 
+void copy(const Vec3& from, double (&to)[3]) { std::copy_n(from.data(), 3, to); }
+
+RingStroke ring_stroke_of(const RingShape& ring, const Stroke& stroke) {
+  RingStroke result{};
+  for (std::size_t k = 0; k < 2; ++k) {
+    copy(stroke.ends[k].center, result.ends[k].center);
+    copy(stroke.ends[k].axis, result.ends[k].axis);
+    copy(stroke.ends[k].center_rate, result.ends[k].center_rate);
+    copy(stroke.ends[k].axis_rate, result.ends[k].axis_rate);
+  }
+  copy(stroke.tip, result.tip), copy(stroke.travel, result.travel);
+  copy(stroke.axis, result.axis), copy(stroke.side, result.side);
+  result.angle = stroke.angle, result.length = stroke.length;
+  result.major = ring.major, result.minor = ring.minor;
+  return result;
+}
+
 }  // namespace
 
 ToolSweep::ToolSweep(const Tool& tool, const SweptPath& path)
@@ -29,15 +46,24 @@ ToolSweep::ToolSweep(const Tool& tool, const SweptPath& path)
   bottoms_ = {-tool.minor_radius};
   for (const ConeShape& cone : cones_) bottoms_.push_back(cone.z0);
   strokes_ = make_strokes(tool, path);
-  std::vector<Box3> whole;
+  for (std::size_t k = 0; k < bottoms_.size(); ++k)
+    if (bottoms_[k] < 0) low_pieces_ |= std::uint32_t(1) << k;
   const double reach = tool.length() + tool.reach();
   for (const Stroke& s : strokes_) {
+    ring_strokes_.push_back(ring_stroke_of(ring_, s));
     sagitta_.push_back(s.sagitta(reach));
     add_boxes(s);
-    whole.emplace_back();
-    for (std::size_t k = 0; k <= cones_.size(); ++k) whole.back().extend(boxes_[boxes_.size() - 1 - k]);
   }
-  tree_ = BoxTree(whole);
+  low_boxes_ = common_boxes(low_pieces());
+  low_tree_ = BoxTree(low_boxes_), high_tree_ = BoxTree(common_boxes(high_pieces()));
+}
+
+// One box a stroke round some pieces.
+std::vector<Box3> ToolSweep::common_boxes(std::uint32_t pieces) const {
+  std::vector<Box3> result(strokes_.size());
+  for (std::size_t i = 0; i < boxes_.size(); ++i)
+    if (pieces >> i % bottoms_.size() & 1) result[i / bottoms_.size()].extend(boxes_[i]);
+  return result;
 }
 
 // Every point of a piece moves on an arc that leaves its chord by at most lever angle^2 / 8.
@@ -58,17 +84,39 @@ void ToolSweep::add_boxes(const Stroke& stroke) {
 }
 
 void ToolSweep::strokes_near(const Box3& box, std::vector<std::uint32_t>& result) const {
-  result.clear();
-  tree_.visit(box, [&](std::uint32_t i) { result.push_back(i); });
+  std::vector<std::uint32_t> high;
+  low_strokes_near(box, result);
+  high_strokes_near(box, high);
+  result.insert(result.end(), high.begin(), high.end());
   std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
 }
 
-std::uint32_t ToolSweep::pieces_near(std::uint32_t stroke, const Box3& box) const {
+void ToolSweep::low_strokes_near(const Box3& box, std::vector<std::uint32_t>& result) const {
+  result.clear();
+  low_tree_.visit(box, [&](std::uint32_t i) { result.push_back(i); });
+}
+
+void ToolSweep::high_strokes_near(const Box3& box, std::vector<std::uint32_t>& result) const {
+  result.clear();
+  high_tree_.visit(box, [&](std::uint32_t i) { result.push_back(i); });
+}
+
+void ToolSweep::low_strokes_near(const Box3& box,
+                                 const Box3& known,
+                                 std::vector<std::uint32_t>& result) const {
+  result.clear();
+  low_tree_.visit(box, [&](std::uint32_t i) {
+    if (!low_boxes_[i].meets(known)) result.push_back(i);
+  });
+}
+
+std::uint32_t ToolSweep::pieces_near(std::uint32_t stroke, std::uint32_t pieces, const Box3& box) const {
   std::uint32_t mask = 0;
-  const std::size_t pieces = cones_.size() + 1;
-  for (std::size_t k = 0; k < pieces; ++k) {
-    const Box3& piece = boxes_[stroke * pieces + k];
-    const Box3 common{piece.lo.cwiseMax(box.lo), piece.hi.cwiseMin(box.hi)};
+  const Box3* const boxes = &boxes_[stroke * bottoms_.size()];
+  for (std::size_t k = 0; k < bottoms_.size(); ++k) {
+    if (!(pieces >> k & 1)) continue;
+    const Box3 common{boxes[k].lo.cwiseMax(box.lo), boxes[k].hi.cwiseMin(box.hi)};
     if (!common.empty() && highest(stroke, common) >= bottoms_[k]) mask |= std::uint32_t(1) << k;
   }
   return mask;
@@ -83,9 +131,13 @@ double ToolSweep::highest(std::uint32_t stroke, const Box3& box) const {
   return height + sagitta_[stroke];
 }
 
-double ToolSweep::distance(std::uint32_t stroke, const Vec3& point) const {
+double ToolSweep::depth(std::uint32_t stroke, const Vec3& point) const {
   const StrokePose& pose = strokes_[stroke].middle;
-  return signed_distance(tool_, ToolPose{pose.center, pose.axis}, point);
+  const Vec3 u = point - pose.center;
+  const double z = u.dot(pose.axis), r = std::sqrt(std::max(u.squaredNorm() - z * z, 0.0));
+  const bool hollow = tool_.recess >= tool_.minor_radius;
+  const double aside = hollow ? r - ring_.major : std::max(r - ring_.major, 0.0);
+  return (z > 0 ? aside : hypotenuse(aside, z)) - ring_.minor;
 }
 
 Spans ToolSweep::piece_spans(std::uint32_t stroke,

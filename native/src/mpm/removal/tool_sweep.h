@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "mpm/removal/ring_cut.h"
 #include "mpm/removal/swept_piece.h"
 #include "mpm/surface/box_tree.h"
 
@@ -17,23 +18,31 @@ class ToolSweep {
   const std::vector<Stroke>& strokes() const { return strokes_; }
   const Tool& tool() const { return tool_; }
 
-  // Numbers of the strokes whose box meets `box`, in a fixed order.
+  // Masks of pieces, a bit each: 1 for the ring; those that reach below the torus centre; all others.
+  static constexpr std::uint32_t kRing = 1;
+  std::uint32_t low_pieces() const { return low_pieces_; }
+  std::uint32_t high_pieces() const { return ~low_pieces_; }
+
+  // Numbers of the strokes of which some pieces meet `box`, in a fixed order: any, low ones, high ones.
   void strokes_near(const Box3& box, std::vector<std::uint32_t>& result) const;
-  // Bit k: piece k of the tool (0: ring) may meet `box` during the stroke: their boxes meet, and what they
-  // have in common is not all below the piece.
-  std::uint32_t pieces_near(std::uint32_t stroke, const Box3& box) const;
+  void low_strokes_near(const Box3& box, std::vector<std::uint32_t>& result) const;
+  void high_strokes_near(const Box3& box, std::vector<std::uint32_t>& result) const;
+  // Of the strokes whose low pieces meet `box` those that do not meet `known`.
+  void low_strokes_near(const Box3& box, const Box3& known, std::vector<std::uint32_t>& result) const;
+  // Those out of `pieces` that may meet `box` during the stroke: their boxes meet, and what they have in
+  // common is not all below the piece.
+  std::uint32_t pieces_near(std::uint32_t stroke, std::uint32_t pieces, const Box3& box) const;
 
   // The pieces that the span of the ray is not below of during the whole stroke, out of `pieces`.
   std::uint32_t pieces_not_above(
       std::uint32_t stroke, std::uint32_t pieces, const Ray& ray, double lo, double hi) const;
 
-  // Signed distance of a point from the tool half way through the stroke.
-  double distance(std::uint32_t stroke, const Vec3& point) const;
+  // A measure of how deep a point lies in the tool half way through the stroke, the less the deeper: the
+  // signed distance from its outline (mm) without shank and holder.
+  double depth(std::uint32_t stroke, const Vec3& point) const;
 
-  // swept_piece.h: clear_below of the ring.
-  bool ring_clear_below(std::uint32_t stroke, const Ray& ray, double hi, const Neighbourhood& near) const {
-    return clear_below(ring_, strokes_[stroke], ray, hi, near);
-  }
+  // ring_cut.h: the ring of the stroke.
+  const RingStroke& ring_stroke(std::uint32_t stroke) const { return ring_strokes_[stroke]; }
 
   // Calls visit(from, to) for the parts of lo <= t <= hi that the stroke sweeps, piece by piece: they may
   // overlap. `pieces`: a bit each, as pieces_near gives them. The pieces that follow are left out when one
@@ -57,6 +66,7 @@ class ToolSweep {
 
  private:
   void add_boxes(const Stroke& stroke);
+  std::vector<Box3> common_boxes(std::uint32_t pieces) const;
   double highest(std::uint32_t stroke, const Box3& box) const;
   Spans piece_spans(std::uint32_t stroke, std::size_t piece, const Ray& ray, const Span& span) const;
 
@@ -65,9 +75,12 @@ class ToolSweep {
   std::vector<ConeShape> cones_;
   std::vector<double> bottoms_;  // of each piece, above the torus centre
   std::vector<Stroke> strokes_;
+  std::vector<RingStroke> ring_strokes_;
   std::vector<double> sagitta_;  // of each stroke, over the whole tool
   std::vector<Box3> boxes_;      // pieces() a stroke
-  BoxTree tree_;
+  std::vector<Box3> low_boxes_;  // of each stroke's low pieces
+  BoxTree low_tree_, high_tree_;
+  std::uint32_t low_pieces_ = 0;
 };
 
 }  // namespace mpm

@@ -1,9 +1,10 @@
 // Four quadratic cells side by side, in the layout that vector instructions want.
 #pragma once
 
+#include "mpm/base/lanes.h"
+
 namespace mpm {
 
-inline constexpr int kLanes = 4;
 inline constexpr unsigned kAllLanes = (1u << kLanes) - 1;  // a bit a lane
 
 // Lane k of every array is one QuadraticCell (quadratic_cell.h). Plain numbers only: the kernels that read it
