@@ -9,6 +9,7 @@ import sys
 from collections.abc import Callable, Sequence
 from typing import NoReturn
 
+from . import planes
 from .console import ProgressLine
 from .errors import Cancelled, InputError, one_line
 
@@ -128,7 +129,10 @@ def make_parser() -> Parser:
         "--box", metavar="MM", type=float, nargs=6, help="only there: lo x y z, hi x y z, set-up frame"
     )
     cut.add_argument(
-        "--section", metavar="PLANE", action="append", help="x=MM or y=MM; may be given several times"
+        "--section",
+        metavar="PLANE",
+        action="append",
+        help=f"{planes.FORMS}, part frame; may be given several times",
     )
     cut.add_argument(
         "--probe-radius-mm", metavar="MM", type=_positive, help="measure the sections with such a ball, too"

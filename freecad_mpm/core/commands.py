@@ -13,6 +13,7 @@ from . import (
     bench_scaling,
     bench_summary,
     cut_command,
+    cutting,
     job,
     markers,
     output,
@@ -39,7 +40,12 @@ def plan(arguments: Namespace, progress: ProgressLine) -> int:
     output.check_folder(arguments.out)
     spec = job.load(arguments.job)
     computed = planning.plan(spec, on_progress=progress, threads=arguments.threads)
-    files = results.files(computed, Stages(progress, threads=arguments.threads))
+    resolution = cutting.default_resolution_mm(computed.scene)
+    cut = cutting.cut(
+        computed.scene, computed.path, resolution, on_progress=progress, threads=arguments.threads
+    )
+    computed = replace(computed, report=report.with_cut(computed, cut))
+    files = results.files(computed, cut, Stages(progress, threads=arguments.threads))
     if arguments.proof:
         files |= results.proof(computed)
     progress.clear()
@@ -76,7 +82,7 @@ def cut(arguments: Namespace, progress: ProgressLine) -> int:
         arguments.job,
         arguments.program,
         resolution_mm=arguments.resolution_mm,
-        planes=arguments.section or (),
+        sections=arguments.section or (),
         probe_radius_mm=arguments.probe_radius_mm,
         box=arguments.box,
         mesh=arguments.mesh,
@@ -84,6 +90,7 @@ def cut(arguments: Namespace, progress: ProgressLine) -> int:
         post=arguments.post,
         threads=arguments.threads,
         on_progress=progress,
+        say=progress.say,
     )
     progress.clear()
     print(text, end="")

@@ -24,6 +24,11 @@ class ProgressLine:
             sys.stderr.write(f"{CLEAR_LINE}{stage} {fraction:4.0%}")
             sys.stderr.flush()
 
+    def say(self, line: str) -> None:
+        """Print a line for good, at once: the work goes on."""
+        self.clear()
+        print(line, flush=True)
+
     def clear(self) -> None:
         if self._is_terminal:
             sys.stderr.write(CLEAR_LINE)

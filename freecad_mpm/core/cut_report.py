@@ -29,6 +29,11 @@ def facts(
         "points": len(values),
         "worst_gouge": _extreme(cut, worst.gouge, program_block),
         "largest_remainder": _extreme(cut, worst.remainder, program_block),
+        "check_faces": {
+            "points": cut.overcut.looked_at,
+            "deepest": worst.check
+            and _extreme(cut, worst.check, program_block) | {"face": _deepest_face(cut)},
+        },
         "gouges_measured_down_to_mm": -cut.below_mm,
         "percentiles_mm": {f"{p:g}": float(np.percentile(values, p)) for p in PERCENTILES},
         "histogram": {"edges_mm": edges.tolist(), "points": counts.tolist()},
@@ -53,11 +58,17 @@ def _extreme(cut: Cut, extreme: Extreme, program_block: Any) -> dict[str, Any]:
     return found
 
 
+def _deepest_face(cut: Cut) -> str:
+    found = cut.overcut
+    return str(cut.scene.check[found.face[int(np.argmax(found.depth_mm))]].name)
+
+
 def _section(one: Section, by_probe: Floats | None) -> dict[str, Any]:
     found = {
-        "origin": one.origin.tolist(),
-        "normal": one.normal.tolist(),
-        "points": len(one.s_mm),
+        "origin": one.plane.origin.tolist(),
+        "normal": one.plane.normal.tolist(),
+        "points": len(one.points),
+        "pieces": int(one.piece[-1]) + 1,
         **_range(one, one.deviation_mm, ""),
     }
     return found if by_probe is None else found | _range(one, by_probe, "probed_")
@@ -75,13 +86,11 @@ def _range(one: Section, values: Floats, prefix: str) -> dict[str, Any]:
 
 def text(found: dict[str, Any]) -> str:
     """The facts for people."""
-    lines = [
-        f"{found['points']} points of the faces, every {found['resolution_mm']:g} mm",
-        f"Worst gouge: {_where(found['worst_gouge'])}",
-        f"Largest remainder: {_where(found['largest_remainder'])}",
+    lines = [*worst_lines(found)]
+    lines.append(
         "Deviation, mm: "
-        + ", ".join(f"{p} % below {value:.4f}" for p, value in found["percentiles_mm"].items()),
-    ]
+        + ", ".join(f"{p} % below {value:.4f}" for p, value in found["percentiles_mm"].items())
+    )
     if found["volume_left_mm3"] is not None:
         lines.append(f"Stock left: {found['volume_left_mm3']:.1f} mm3")
     lines += [_section_line(name, one) for name, one in found["sections"].items()]
@@ -89,6 +98,27 @@ def text(found: dict[str, Any]) -> str:
         "Time: " + ", ".join(f"{stage} {seconds:.2f} s" for stage, seconds in found["seconds"].items())
     )
     return "\n".join(lines) + "\n"
+
+
+def worst_lines(found: dict[str, Any]) -> list[str]:
+    """The worst places, for people."""
+    return [
+        f"Cut into stock, {found['points']} points of the faces, every {found['resolution_mm']:g} mm",
+        f"Worst gouge: {_where(found['worst_gouge'])}",
+        f"Largest remainder: {_where(found['largest_remainder'])}",
+        _check_line(found["check_faces"]),
+    ]
+
+
+def _check_line(found: dict[str, Any]) -> str:
+    deepest, points = found["deepest"], found["points"]
+    if deepest is None:
+        return (
+            f"Check faces: none is cut, at {points} points near the path"
+            if points
+            else "Check faces: none is near"
+        )
+    return f"Check faces: deepest in {deepest['face']}, {_where(deepest)}"
 
 
 def _where(extreme: dict[str, Any]) -> str:

@@ -10,45 +10,30 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .. import _core
 from .model import Scene
-from .section import Section, probed, section
+from .overcut import Overcut, depths, overcut
+from .plane_curve import Curve, curve
+from .section import Section, measured, probed
 from .stages import Cancel, Progress, Stages
+from .swept import Box, Floats, Moves, tool_sweep
 
-Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
-Names = NDArray[np.str_]
 
 # Points of a section lie at most so far apart unless it is asked otherwise: a cusp shows.
 SECTION_SPACING_MM = 0.05
 
-# Moves of these kinds take nothing away, whatever they run through.
-NOT_CUTTING = ("rapid",)
 # The stock reaches this part of its height below the lowest point of the faces, and at least a cell.
 BASE_DEPTH = 0.1
+# Of the points that may be too deep, so many are looked at before it is asked whether one was.
+POINTS_AT_A_TIME = 1000
 # Dexels along the longer side of a stock whose resolution nobody names: a 150 mm part gets 0.5 mm.
 DEXELS_ALONG = 300
-
-
-class Moves(Protocol):
-    """What is needed of a path: `kind` (M,) names, `tip` and `axis` (M, 3), part frame, mm."""
-
-    @property
-    def kind(self) -> Names:
-        ...
-
-    @property
-    def tip(self) -> Floats:
-        ...
-
-    @property
-    def axis(self) -> Floats:
-        ...
 
 
 class Mesh(NamedTuple):
@@ -56,13 +41,6 @@ class Mesh(NamedTuple):
 
     vertices: Floats
     triangles: NDArray[np.uint32]
-
-
-class Box(NamedTuple):
-    """A box lo..hi (3,), mm."""
-
-    lo: Floats
-    hi: Floats
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,11 +66,17 @@ class Extreme(NamedTuple):
     move: int
 
 
+NOT_CUT = Extreme(0.0, np.zeros(3), -1)
+
+
 class Worst(NamedTuple):
-    """The deepest gouge (the least deviation, above 0 when there is no gouge) and the largest remainder."""
+    """The deepest gouge (the least deviation, above 0 when there is no gouge), the largest remainder, and the deepest
+    cut into a check face (`deviation_mm` is minus how deep the point lay in the tool), None when none is cut.
+    """
 
     gouge: Extreme
     remainder: Extreme
+    check: Extreme | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,6 +88,7 @@ class Cut:
     resolution_mm: float
     stock: Box  # set-up frame
     deviation: Deviation
+    overcut: Overcut  # of the check faces
     below_mm: float  # gouges deeper than this are given as so deep
     sweep: Any  # the native _core.ToolSweep of the path, for more rays
     dexels: Any  # the native _core.DexelStock after the cut; None: `with_stock` was False
@@ -116,9 +101,25 @@ class Cut:
         return _mesh(self.scene, self.dexels)
 
     def worst(self) -> Worst:
-        """Worst gouge and largest remainder over all points of the deviation."""
+        """Over all points of the deviation and of the check faces."""
         values = self.deviation.deviation_mm
-        return Worst(self._extreme(int(np.argmin(values))), self._extreme(int(np.argmax(values))))
+        gouge, remainder = (self._extreme(int(which(values))) for which in (np.argmin, np.argmax))
+        return Worst(gouge, remainder, self._deepest_in_check_faces())
+
+    def good(self, depth_mm: float) -> bool:
+        """No point of any face, machined or not, lay deeper inside the tool than `depth_mm`.
+
+        That is the depth by which plans are judged; along the normal, near a sharp edge, the deviation may be more.
+        """
+        if (self.overcut.depth_mm > depth_mm).any():
+            return False
+        values = self.deviation.deviation_mm
+        rows = np.flatnonzero(values < -depth_mm)  # nowhere else can the tool be so deep
+        for some in np.array_split(rows[np.argsort(values[rows])], max(1, len(rows) // POINTS_AT_A_TIME)):
+            points = self.scene.frame.to_setup(self.deviation.points[some])
+            if (depths(self.scene, self.path, points, Stages())[0] > depth_mm).any():
+                return False
+        return True
 
     def heights(self, points: Floats, directions: Floats) -> tuple[Floats, Integers]:
         """Deviation (N,) along `directions` (N, 3) at any `points` (N, 3) of the true surface (part frame), and the
@@ -136,12 +137,23 @@ class Cut:
     def section(
         self, origin: Sequence[float], normal: Sequence[float], spacing_mm: float = SECTION_SPACING_MM
     ) -> Section:
-        """The machined surface along a plane (part frame): `section.section`."""
-        return section(self, origin, normal, spacing_mm)
+        """The machined surface along a plane (part frame): `plane_curve.curve`, measured."""
+        return measured(self, curve(self.scene, origin, normal, spacing_mm))
+
+    def along(self, of: Curve) -> Section:
+        """The machined surface along a curve."""
+        return measured(self, of)
 
     def probed(self, of: Section, radius_mm: float) -> Floats:
         """What a measuring machine with a ball of `radius_mm` finds along a section: `section.probed`."""
         return probed(self, of, radius_mm)
+
+    def _deepest_in_check_faces(self) -> Extreme | None:
+        found = self.overcut
+        if not (found.depth_mm > 0).any():
+            return None
+        i = int(np.argmax(found.depth_mm))
+        return Extreme(-float(found.depth_mm[i]), found.points[i], int(found.move[i]))
 
     def _extreme(self, i: int) -> Extreme:
         found = self.deviation
@@ -172,53 +184,24 @@ def cut(
     cancel:        a threading.Event or a function; when it is set or true, Cancelled is raised within 0.1 s.
     threads:       0: all cores. The result does not depend on it.
 
-    `memory_needed` says beforehand how many bytes it takes. Raises ValueError naming the argument that is wrong.
+    `cut_memory` says beforehand how many bytes it takes. Raises ValueError naming the argument that is wrong.
     """
     stages = Stages(on_progress, cancel, threads)
-    stock = _stock_box(scene, box, resolution_mm)
+    stock = stock_box(scene, box, resolution_mm)
     sweep = tool_sweep(scene, path)
     deviation = _deviation(scene, sweep, stock, box is not None, resolution_mm, stages)
-    dexels = _cut_dexels(sweep, stock, resolution_mm, stages, "stock") if with_stock else None
+    into_checks = overcut(scene, path, resolution_mm, None if box is None else stock, stages)
+    dexels = _cut_dexels(sweep, stock, resolution_mm, stages) if with_stock else None
     below = scene.tool.radius
-    return Cut(scene, path, resolution_mm, stock, deviation, below, sweep, dexels, stages.seconds)
-
-
-def cut_stock(scene: Scene, path: Moves, resolution_mm: float, stages: Stages, stage: str = "stock") -> Mesh:
-    """Only the machined stock of `cut`, counted as `stage`."""
-    stock = _stock_box(scene, None, resolution_mm)
-    dexels = _cut_dexels(tool_sweep(scene, path), stock, resolution_mm, stages, stage)
-    return stages.run(stage, _mesh, scene, dexels)
+    return Cut(
+        scene, path, resolution_mm, stock, deviation, into_checks, below, sweep, dexels, stages.seconds
+    )
 
 
 def default_resolution_mm(scene: Scene) -> float:
     """A resolution at which the whole part is quickly cut."""
     lo, hi = scene.model.bounds()
     return float((hi - lo)[:2].max()) / DEXELS_ALONG
-
-
-def memory_needed(
-    scene: Scene,
-    resolution_mm: float,
-    box: tuple[Sequence[float], Sequence[float]] | None = None,
-    with_stock: bool = True,
-) -> int:
-    """About how many bytes `cut` will take. Raises ValueError for a resolution that is out of range."""
-    stock = _stock_box(scene, box, resolution_mm)
-    size = stock.hi - stock.lo
-    points = float(size[0] * size[1] / resolution_mm**2)
-    needed = int(points * BYTES_A_POINT)
-    return needed + (_core.DexelStock.bytes_needed(stock.lo, stock.hi, resolution_mm) if with_stock else 0)
-
-
-# A point of the deviation: position and normal in both frames, parameters, two triangles.
-BYTES_A_POINT = 300
-
-
-def tool_sweep(scene: Scene, path: Moves) -> Any:
-    """The native sweep of a path (part frame) by the scene's tool."""
-    frame = scene.frame
-    removes = ~np.isin(path.kind, NOT_CUTTING)
-    return _core.ToolSweep(scene.tool, frame.to_setup(path.tip), frame.direction_to_setup(path.axis), removes)
 
 
 def cut_rays(
@@ -243,9 +226,9 @@ def _way_out(points: Floats, directions: Floats, box: Box) -> Floats:
     return np.maximum(far, 0.0)
 
 
-def _cut_dexels(sweep: Any, stock: Box, resolution_mm: float, stages: Stages, stage: str) -> Any:
+def _cut_dexels(sweep: Any, stock: Box, resolution_mm: float, stages: Stages) -> Any:
     dexels = _core.DexelStock(stock.lo, stock.hi, resolution_mm)
-    stages.run_native(stage, dexels.cut, sweep)
+    stages.run_native("stock", dexels.cut, sweep)
     return dexels
 
 
@@ -254,9 +237,7 @@ def _mesh(scene: Scene, dexels: Any) -> Mesh:
     return Mesh(scene.frame.to_part(vertices), triangles)
 
 
-def _stock_box(
-    scene: Scene, box: tuple[Sequence[float], Sequence[float]] | None, resolution_mm: float
-) -> Box:
+def stock_box(scene: Scene, box: tuple[Sequence[float], Sequence[float]] | None, resolution_mm: float) -> Box:
     if not (np.isfinite(resolution_mm) and resolution_mm > 0):
         raise ValueError(f"resolution_mm must be a positive number, got {resolution_mm}")
     lo, hi = (np.array(corner, dtype=np.float64) for corner in (box or scene.model.bounds()))

@@ -52,7 +52,8 @@ class Setup(Section):
 
 @dataclass(frozen=True)
 class FootprintSpec(Section):
-    """Where in plan the tool is to stand; `direction_deg` is the feed direction from the set-up's x axis."""
+    """Where in plan the tool is to stand; `direction_deg` is the feed direction from the set-up's x axis. With
+    `allow_gaps` a plan is good although it leaves out cuts between neighbours."""
 
     table: ClassVar[str] = "footprint"
 
@@ -62,6 +63,7 @@ class FootprintSpec(Section):
     forward_step_mm: float = key(positive("mm"), 2.0)
     zigzag: bool = key(checks.flag, False)
     margin_mm: float = key(checks.number("mm"), 0.0)
+    allow_gaps: bool = key(checks.flag, False)
 
 
 @dataclass(frozen=True)

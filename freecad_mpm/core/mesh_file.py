@@ -15,6 +15,7 @@ Indices = NDArray[np.uint32]
 
 STL_HEADER_BYTES = 80
 STL_RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+AT_A_TIME = 100_000  # triangles; all of a fine mesh at once would take gigabytes
 PLY_TRIANGLE = np.dtype([("count", "u1"), ("corners", "<u4", 3)])
 
 
@@ -33,12 +34,14 @@ def writer(name: str) -> Callable[[Floats, Indices], bytes]:
 
 
 def _stl(vertices: Floats, triangles: Indices) -> bytes:
-    corners = vertices[triangles]
     records = np.zeros(len(triangles), dtype=STL_RECORD)
-    records["corners"] = corners
-    records["normal"] = _unit_normals(corners)
+    for first in range(0, len(triangles), AT_A_TIME):
+        some = slice(first, first + AT_A_TIME)
+        corners = vertices[triangles[some]]
+        records["corners"][some] = corners
+        records["normal"][some] = _unit_normals(corners)
     header = b"binary STL, mm".ljust(STL_HEADER_BYTES, b" ")
-    return header + len(triangles).to_bytes(4, "little") + records.tobytes()
+    return b"".join((header, len(triangles).to_bytes(4, "little"), records.data))
 
 
 def _unit_normals(corners: Floats) -> Floats:

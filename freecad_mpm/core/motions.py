@@ -59,7 +59,7 @@ def prove(
     points: (N, 2) where in plan the positions stand. place: gives the positions over further points (M, 2) with the
     spins (M,) in degrees."""
     rows = _Rows(points, positions, np.full(len(points), np.nan))
-    open_moves, depth_mm = neighbours(positions), cut_depth_mm(job.tolerance, PROVEN)
+    open_moves, depth_mm = positions.neighbours, cut_depth_mm(job.tolerance, PROVEN)
     cells = 0
     for depth in range(DEPTH + 1):
         found = certify(
@@ -108,14 +108,6 @@ class _Rows:
     points: Floats  # (N, 2)
     positions: Positions
     clearance: Floats  # (N,)
-
-
-def neighbours(positions: Positions) -> Flags:
-    """(N,): the position and the one before it are usable and of one pass, so that a cut may join them."""
-    result = np.zeros(len(positions), dtype=bool)
-    usable, passes = positions.usable, positions.pass_index
-    result[1:] = usable[1:] & usable[:-1] & (passes[1:] == passes[:-1])
-    return result
 
 
 def _halve(rows: _Rows, failed: Flags, place: Place) -> tuple[_Rows, Flags]:

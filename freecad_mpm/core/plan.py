@@ -44,6 +44,14 @@ class Positions:
         """(N,): the path may go there."""
         return np.isfinite(self.tip).all(axis=1) & ~np.isin(self.status, UNUSABLE)
 
+    @property
+    def neighbours(self) -> Flags:
+        """(N,): the position and the one before it are usable and of one pass, so that a cut should join them."""
+        result = np.zeros(len(self), dtype=bool)
+        usable, passes = self.usable, self.pass_index
+        result[1:] = usable[1:] & usable[:-1] & (passes[1:] == passes[:-1])
+        return result
+
 
 @dataclass(frozen=True)
 class Path:

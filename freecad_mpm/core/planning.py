@@ -62,7 +62,9 @@ def plan(
     path = with_rapids_proven(job, shop, scene, path, joints, stages)
     made = make_program(job, shop, path, joints, scene.model.bounds(), stages)
     positions, path = positions_in_part(positions, scene.frame), path_in_part(path, scene.frame)
-    verdict = judge(positions, path, made.troubles, job.tolerance, guarantee_of(job))
+    verdict = judge(
+        positions, path, made.troubles, job.tolerance, guarantee_of(job), job.footprint.allow_gaps
+    )
     facts = report.facts(job, shop.machine, positions, path, made, placed.counters, stages.seconds, verdict)
     if job.method.contact_spacing_mm:
         along = scene.frame.direction_to_part(spacing.feed(job.footprint.direction_deg))

@@ -9,15 +9,16 @@ from typing import Any
 
 import numpy as np
 
-from . import spacing
+from . import cut_report, spacing
+from .cutting import Cut
 from .job import Job
 from .machines import Machine
 from .motion_time import slowed_cuts
-from .plan import UNUSABLE, Integers, Path, Positions
+from .plan import UNUSABLE, Integers, Path, Plan, Positions
 from .rewind import rewinds
 from .shop import Made
-from .statement import not_cut, statement
-from .verdict import PROVEN, Verdict, digging, gouging, undecided, unproven_links
+from .statement import statement
+from .verdict import PROVEN, Verdict, cut_depth_mm, digging, gaps, gouging, undecided, unproven_links
 from .version import __version__
 
 Facts = dict[str, Any]
@@ -39,7 +40,7 @@ def facts(
     """All figures of a plan as plain values, ready for JSON; positions and path in the part's frame."""
     return {
         "version": __version__,
-        "verdict": {"good": verdict.good, "line": verdict.line, "troubles": list(verdict.troubles)},
+        "verdict": verdict.facts,
         "warnings": warnings(job, machine, positions, path, verdict.guarantee)
         + unproven(path)
         + _slowed(machine, path, made),
@@ -75,9 +76,12 @@ def warnings(job: Job, machine: Machine, positions: Positions, path: Path, guara
             f"{len(turned)} cuts are interrupted for a rotary axis to rewind on the safe plane, "
             f"before positions {places}"
         )
-    gaps = not_cut(positions, path)
-    if gaps:
-        found.append(f"{gaps} moves between neighbours of a pass are not cut: the tool retracts there")
+    missing = gaps(positions, path)
+    if len(missing):
+        found.append(
+            f"{len(missing)} moves between neighbours of a pass are not cut: the tool retracts before positions "
+            f"{_listed(missing)}"
+        )
     return found
 
 
@@ -186,7 +190,7 @@ def _path_facts(job: Job, positions: Positions, path: Path, guarantee: str) -> F
         "worst_cut_clearance_mm": float(path.clearance[cuts].min()) if cuts.any() else None,
         "cuts_too_deep": int(np.count_nonzero(digging(path, job.tolerance, guarantee))),
         "cuts_guarantee": guarantee,
-        "moves_not_cut": not_cut(positions, path),
+        "moves_not_cut": len(gaps(positions, path)),
         "blocked_moves": int(np.count_nonzero(path.blocked)),
         "links_not_proven": np.flatnonzero(unproven_links(path)).tolist(),
     }
@@ -214,6 +218,17 @@ def _time_facts(seconds: Mapping[str, float], count: int) -> Facts:
     }
 
 
+def with_cut(plan: Plan, cut: Cut) -> Facts:
+    """The plan's facts and what the removal, which knows nothing of the method, found of its path; a face that it finds
+    cut deeper than the tolerances allow makes the plan bad."""
+    told = plan.report["verdict"]
+    verdict = Verdict(plan.report["positions"]["guarantee"], tuple(told["troubles"]))
+    depth = cut_depth_mm(plan.job.tolerance, verdict.guarantee)
+    if not cut.good(depth):
+        verdict = verdict.with_trouble(f"the removal finds a face cut deeper than {depth:g} mm")
+    return {**plan.report, "verdict": verdict.facts, "cut": cut_report.facts(cut, {})}
+
+
 def to_json(facts: Facts) -> str:
     """report.json; infinities, which JSON has not, would be our bug."""
     return json.dumps(facts, indent=2, allow_nan=False) + "\n"
@@ -227,6 +242,7 @@ def text(facts: Facts) -> str:
         _job_lines(facts["job"]),
         _position_lines(facts),
         _path_lines(facts["path"]),
+        cut_report.worst_lines(facts["cut"]) if "cut" in facts else [],
         facts["program"]["lines"],
         _time_lines(facts),
         [facts["statement"][0].upper() + facts["statement"][1:] + "."],

@@ -12,15 +12,15 @@ from .shop import find_shop
 from .stages import Stages
 
 
-def files(plan: Plan, stages: Stages) -> dict[str, bytes | str]:
-    """File name -> content, everything ready to be written together."""
+def files(plan: Plan, cut: cutting.Cut, stages: Stages) -> dict[str, bytes | str]:
+    """File name -> content, everything ready to be written together. cut: of the plan's path."""
     return {
         "cl.csv": stages.run("cl.csv", cl_file.to_csv, plan, plan.path),
         "cl.apt": stages.run("cl.apt", _apt, plan),
         plan.program.file_name: plan.program.text,
         "report.json": report.to_json(plan.report),
         "report.txt": report.text(plan.report),
-        "machined.stl": _machined_stl(plan, stages),
+        "machined.stl": stages.run("machined.stl", _machined_stl, cut),
         "path.png": stages.run("path.png", _picture, plan),
     }
 
@@ -38,10 +38,9 @@ def _apt(plan: Plan) -> str:
     return to_apt(plan.path, post.program_name, tool.radius_mm, tool.minor_radius_mm, feeds)
 
 
-def _machined_stl(plan: Plan, stages: Stages) -> bytes:
-    resolution = cutting.default_resolution_mm(plan.scene)
-    mesh = cutting.cut_stock(plan.scene, plan.path, resolution, stages, "machined.stl")
-    return stages.run("machined.stl", mesh_file.to_bytes, "machined.stl", mesh.vertices, mesh.triangles)
+def _machined_stl(cut: cutting.Cut) -> bytes:
+    mesh = cut.mesh()
+    return mesh_file.to_bytes("machined.stl", mesh.vertices, mesh.triangles)
 
 
 def _picture(plan: Plan) -> bytes:

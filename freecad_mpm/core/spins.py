@@ -12,6 +12,7 @@ import numpy as np
 
 from .. import _core
 from . import planning, spacing, strip
+from .errors import InputError
 from .faces import FaceArrays
 from .job import ACROSS, DIRECT, Job
 from .model import Scene
@@ -44,7 +45,7 @@ def spread(
 ) -> Spread:
     """Place the job's method over `points` (N, 2) with every spin (K,).
 
-    Raises InputError when the method cannot spin."""
+    Raises InputError when the method cannot spin, and for a point that lies beside the part for all spins."""
     if not _core.METHODS[job.method.name]["spins"]:
         raise job.error(job.method.table, "name", f"{job.method.name} cannot spin")
     positioner = planning.make_positioner(job, scene, stages)
@@ -52,6 +53,8 @@ def spread(
     shape = (len(points), len(spin_deg))
     contacts = placed["contacts"].reshape(*shape, 2, 3)
     status = np.array(_core.POSITION_STATUS)[placed["status"]].reshape(shape)
+    for x, y in points[(status == "off_part").all(axis=1)][:1]:
+        raise InputError(f"({x:g}, {y:g}): lies beside the part: no spin of the tool touches it there")
     tip, axis = (placed[name].reshape(*shape, 3) for name in ("tip", "axis"))
     along = spacing.feed(job.footprint.direction_deg)
     widths = stages.run("strips", _widths, scene, points, tip, axis, contacts, along, scallop_mm)

@@ -5,17 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from .job import Tolerance
-from .motions import neighbours
 from .plan import Path, Positions
-from .verdict import PROVEN, cut_depth_mm, digging, gouging, undecided, unproven_links
+from .verdict import PROVEN, cut_depth_mm, digging, gaps, gouging, undecided, unproven_links
 
 MICROMETRES = 1000.0  # in a millimetre
-
-
-def not_cut(positions: Positions, path: Path) -> int:
-    """Moves between neighbours of a pass that the path does not cut: the tool retracts and plunges instead."""
-    cuts = (path.kind == "cut") & (path.position >= 0)  # not the first piece of a cut that is interrupted
-    return int(np.count_nonzero(neighbours(positions)) - np.count_nonzero(cuts))
 
 
 def statement(positions: Positions, path: Path, tolerance: Tolerance, guarantee: str) -> str:
@@ -31,10 +24,10 @@ def statement(positions: Positions, path: Path, tolerance: Tolerance, guarantee:
         f"within {_micrometres(cut_depth_mm(tolerance, guarantee))} on {_of(good_cuts, cuts, 'cuts')} between them, "
         f"{'' if guarantee == PROVEN else 'sampled: no proof; '}{_links(path, cut_depth_mm(tolerance, guarantee))}"
     )
-    gaps = not_cut(positions, path)
+    not_cut = len(gaps(positions, path))
     return (
         sentence
-        + (f"; {gaps} moves between neighbours are not cut" if gaps else "")
+        + (f"; {not_cut} moves between neighbours are not cut" if not_cut else "")
         + (f"; {left_out} positions are left out" if left_out else "")
     )
 

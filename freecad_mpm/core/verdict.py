@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from .job import Tolerance
-from .plan import Flags, Path, Positions
+from .plan import Flags, Integers, Path, Positions
 
 PROVEN = "proven"
 
@@ -24,6 +25,14 @@ class Verdict:
     def good(self) -> bool:
         return not self.troubles
 
+    def with_trouble(self, trouble: str) -> Verdict:
+        return Verdict(self.guarantee, (*self.troubles, trouble))
+
+    @property
+    def facts(self) -> dict[str, Any]:
+        """For report.json."""
+        return {"good": self.good, "line": self.line, "troubles": list(self.troubles)}
+
     @property
     def line(self) -> str:
         basis = (
@@ -31,7 +40,7 @@ class Verdict:
             if self.guarantee == PROVEN
             else "positions and cuts sampled: no proof; links proven"
         )
-        return f"{'good' if self.good else 'NOT GOOD: ' + '; '.join(self.troubles)} ({basis})"
+        return f"good ({basis})" if self.good else f"NOT GOOD: {'; '.join(self.troubles)} (else {basis})"
 
 
 def gouging(positions: Positions, tolerance: Tolerance) -> Flags:
@@ -65,10 +74,24 @@ def unproven_links(path: Path) -> Flags:
     return (path.kind != "cut") & ~path.proven
 
 
+def gaps(positions: Positions, path: Path) -> Integers:
+    """The positions that a cut from their neighbour in the pass should lead to and none does: the tool retracts and
+    plunges instead."""
+    missing = positions.neighbours
+    missing[path.position[(path.kind == "cut") & (path.position >= 0)]] = False
+    return np.flatnonzero(missing)
+
+
 def judge(
-    positions: Positions, path: Path, machine_troubles: Sequence[str], tolerance: Tolerance, guarantee: str
+    positions: Positions,
+    path: Path,
+    machine_troubles: Sequence[str],
+    tolerance: Tolerance,
+    guarantee: str,
+    allow_gaps: bool,
 ) -> Verdict:
-    """machine_troubles: one line for each kind of thing that the machine cannot do."""
+    """machine_troubles: one line for each kind of thing that the machine cannot do. allow_gaps: what is asked for and
+    not cut is no trouble."""
     depth = cut_depth_mm(tolerance, guarantee)
     counts = {
         f"positions cut in deeper than {tolerance.gouge_mm:g} mm": gouging(positions, tolerance),
@@ -78,4 +101,7 @@ def judge(
         "links are not proven free": unproven_links(path) & ~path.blocked,
     }
     found = [f"{np.count_nonzero(which)} {what}" for what, which in counts.items() if which.any()]
+    not_cut = len(gaps(positions, path))
+    if not_cut and not allow_gaps:
+        found.append(f"{not_cut} moves between neighbours of a pass are not cut")
     return Verdict(guarantee, (*found, *machine_troubles))

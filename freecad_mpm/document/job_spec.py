@@ -110,6 +110,7 @@ def _footprint(op: Any) -> core.FootprintSpec:
         forward_step_mm=op.ForwardStep.Value,
         zigzag=op.ZigZag,
         margin_mm=op.Margin.Value,
+        allow_gaps=op.AllowGaps,
     )
 
 

@@ -79,6 +79,13 @@ PROPERTIES = (
         "Margin", "Distance", "Footprint", "Distance kept from the outline of the faces, seen from above", 0.0
     ),
     Property(
+        "AllowGaps",
+        "Bool",
+        "Footprint",
+        "The plan is good although it leaves out cuts between neighbouring positions",
+        False,
+    ),
+    Property(
         "SafeClearance", "Length", "Links", "Between the part and the whole tool on the safe plane", 5.0
     ),
     Property("ApproachDistance", "Length", "Links", "How near to the part a rapid may come", 2.0),
@@ -105,7 +112,7 @@ PROPERTIES = (
         "Good",
         "Bool",
         "Result",
-        "The plan has no gouge, nothing undecided and no limit exceeded",
+        "The plan has no gouge, nothing undecided, no cut left out and no limit exceeded",
         False,
         mode=READ_ONLY,
     ),  # fmt: skip

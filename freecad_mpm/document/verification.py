@@ -6,7 +6,6 @@ name is written into documents: never rename it."""
 from __future__ import annotations
 
 import hashlib
-import os
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path as FilePath
@@ -16,7 +15,7 @@ import FreeCAD
 import Mesh
 import numpy as np
 
-from ..core.errors import InputError
+from ..core.errors import blame
 from ..core.output import write_atomically
 from . import compat, hooks, program
 from .computation import require_native
@@ -32,9 +31,8 @@ NAME, STOCK = "Verification", "MachinedStock"
 STOCK_LABEL = "Machined stock of {}"
 RESULT_LABEL = "Verification of {}"
 NO_MOVE = NO_POSITION = -1
-# Of the computer's memory that a verification may take.
-MEMORY_SHARE = 0.7
-GIGABYTE = 1e9
+# Properties of the worst places, in the order of `cutting.Worst`.
+WORST = ("WorstGouge", "WorstRemainder", "WorstCheckGouge")
 
 PROPERTIES = (
     Property("Operation", "Link", "Verification", "The operation whose path was cut", mode=READ_ONLY),
@@ -61,10 +59,29 @@ PROPERTIES = (
         "WorstRemainderMove", "Integer", "Deviation", "The move that cut there last; -1: none", mode=READ_ONLY
     ),
     Property(
+        "WorstCheckGouge",
+        "Distance",
+        "Deviation",
+        "Deepest cut into a face that is not picked, negative; 0: none is cut",
+        0.0,
+        mode=READ_ONLY,
+    ),
+    Property("WorstCheckGougePoint", "Vector", "Deviation", "Where that is", mode=READ_ONLY),
+    Property(
+        "WorstCheckGougeMove",
+        "Integer",
+        "Deviation",
+        "The move that went deepest; -1: none",
+        -1,
+        mode=READ_ONLY,
+    ),
+    Property(
         "Bands", "StringList", "Deviation", "What part of the faces deviates how much", [], mode=READ_ONLY
     ),
     Property("Tolerance", "Length", "Deviation", "How deep a cut of this path may be", 0.0, mode=READ_ONLY),
-    Property("Good", "Bool", "Deviation", "Nothing is cut deeper than that", False, mode=READ_ONLY),
+    Property(
+        "Good", "Bool", "Deviation", "No face, picked or not, is cut deeper than that", False, mode=READ_ONLY
+    ),
     Property("Data", "FileIncluded", "Stored", "Points, deviations, moves, triangles", mode=HIDDEN),
     Property("PathMark", "String", "Stored", "Tells one path from another", "", mode=HIDDEN),
 )
@@ -74,10 +91,11 @@ PROPERTIES = (
 class Deviation:
     """The deviation that a result holds; global frame, mm. Single precision, as it is for looking at."""
 
-    points: np.ndarray  # (N, 3), on the faces to machine
-    deviation_mm: np.ndarray  # (N,), along the normal: > 0 remains, < 0 is cut in
-    move: np.ndarray  # (N,), move of the path that cut there last, -1: none
+    points: np.ndarray  # (N, 3), on the faces to machine; then those of the other faces that are cut, and round them
+    deviation_mm: np.ndarray  # (N,), along the normal: > 0 remains, < 0 is cut in; of other faces how deep in the tool
+    move: np.ndarray  # (N,), move of the path that cut there last, -1: none; of other faces the one that went deepest
     triangles: np.ndarray  # (T, 3) of points
+    measured: int  # points of the faces to machine
 
     def nearest(self, point: Any) -> int:
         """The row nearest to a point (3,)."""
@@ -130,25 +148,20 @@ def verify(op: Any, resolution_mm: float | None = None) -> Any:
     Shows progress where there is a window. Raises InputError: no up-to-date path; Cancelled: nothing is changed.
     """
     require_native()
-    from ..core import cutting
+    from ..core import cut_memory, cutting
 
     program.check_ready(op)
     scene = scene_of(op)
     resolution = resolution_mm or cutting.default_resolution_mm(scene)
-    _check_memory(cutting.memory_needed(scene, resolution), resolution)
+    with blame("Resolution:"):
+        takes = cut_memory.check(scene, resolution)
+    FreeCAD.Console.PrintMessage(f"{op.Label}: {takes}\n")
     path = program.path_of([op])
     cut = hooks.run(lambda **watching: cutting.cut(scene, path, resolution, **watching))
     result = result_of(op) or _make(op)
     _fill(result, op, cut)
     result.Document.recompute([result, result.Stock])
     return result
-
-
-def _check_memory(needed: int, resolution_mm: float) -> None:
-    there_is = MEMORY_SHARE * os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-    if needed > there_is:
-        sizes = f"{needed / GIGABYTE:.1f} GB, and at most {there_is / GIGABYTE:.1f} GB may be used"
-        raise InputError(f"Resolution: {resolution_mm:g} mm takes {sizes}; it must be coarser")
 
 
 def result_of(op: Any) -> Any | None:
@@ -179,7 +192,9 @@ def allowed_depth_mm(op: Any) -> float:
 def deviation_of(result: Any) -> Deviation:
     """What is coloured in the 3D view."""
     with np.load(result.Data) as data:
-        return Deviation(data["points"], data["deviation_mm"], data["move"], data["triangles"])
+        points = data["points"]
+        measured = int(data["measured"]) if "measured" in data else len(points)  # not in the first documents
+        return Deviation(points, data["deviation_mm"], data["move"], data["triangles"], measured)
 
 
 def position_at(op: Any, move: int) -> int:
@@ -196,14 +211,28 @@ def write_picture(result: Any, path: str) -> None:
     from ..core import deviation_bands, deviation_picture
 
     found = deviation_of(result)
-    png = deviation_picture.render(
+    shown = deviation_picture.Map(
         found.points,
         found.triangles,
         found.deviation_mm,
-        deviation_bands.bands(result.Tolerance.Value),
-        result.Label,
+        found.measured,
+        _extremes(result),
+        result.Resolution.Value,
     )
+    bands = deviation_bands.bands(result.Tolerance.Value)
+    png = deviation_picture.render(shown, bands, result.Label)
     write_atomically(path, png)
+
+
+def _extremes(result: Any) -> list[Any]:
+    """The worst places as `cutting.Worst` has them."""
+    from ..core.cutting import Extreme
+
+    found = []
+    for name in WORST:
+        value, point = getattr(result, name).Value, np.array(tuple(getattr(result, f"{name}Point")))
+        found.append(Extreme(value, point, getattr(result, f"{name}Move")))
+    return [*found[:2], found[2] if found[2].deviation_mm < 0 else None]
 
 
 def path_mark(op: Any) -> str:
@@ -224,32 +253,36 @@ def _make(op: Any) -> Any:
 
 def _fill(result: Any, op: Any, cut: Cut) -> None:
     from ..core import deviation_bands
+    from ..core.cutting import NOT_CUT
 
     found, worst = cut.deviation, cut.worst()
     tolerance = allowed_depth_mm(op)
     bands = deviation_bands.bands(tolerance)
     result.Resolution, result.Tolerance = cut.resolution_mm, tolerance
-    result.Good = worst.gouge.deviation_mm >= -tolerance
-    for name, extreme in (("WorstGouge", worst.gouge), ("WorstRemainder", worst.remainder)):
+    result.Good = cut.good(tolerance)
+    for name, extreme in zip(WORST, (worst.gouge, worst.remainder, worst.check or NOT_CUT)):
         setattr(result, name, extreme.deviation_mm)
         setattr(result, f"{name}Point", FreeCAD.Vector(*extreme.point.tolist()))
         setattr(result, f"{name}Move", extreme.move)
     result.Bands = deviation_bands.table(bands, bands.shares(found.deviation_mm))
     result.PathMark, result.Outdated = path_mark(op), False
-    _store(result, found)
+    _store(result, found, cut.overcut)
     result.Stock.Mesh = _mesh(cut)
 
 
-def _store(result: Any, found: Any) -> None:
+def _store(result: Any, found: Any, aside: Any) -> None:
     """FreeCAD copies the file into the document."""
     with tempfile.TemporaryDirectory() as folder:
         file = FilePath(folder) / "deviation.npz"
         np.savez_compressed(
             file,
-            points=found.points.astype(np.float32),
-            deviation_mm=found.deviation_mm.astype(np.float32),
-            move=found.move.astype(np.int32),
-            triangles=found.triangles.astype(np.uint32),
+            points=np.concatenate((found.points, aside.points)).astype(np.float32),
+            deviation_mm=np.concatenate((found.deviation_mm, -aside.depth_mm)).astype(np.float32),
+            move=np.concatenate((found.move, aside.move)).astype(np.int32),
+            triangles=np.concatenate((found.triangles, aside.triangles + len(found.points))).astype(
+                np.uint32
+            ),
+            measured=len(found.points),
         )
         result.Data = str(file)
 

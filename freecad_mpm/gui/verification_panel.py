@@ -42,6 +42,7 @@ class VerificationPanel:
             self._played = None if _is_history(result) else played(result.Operation)
         self.form.gouge.clicked.connect(lambda: self.show_spot(result.WorstGougePoint))
         self.form.remainder.clicked.connect(lambda: self.show_spot(result.WorstRemainderPoint))
+        self.form.check.clicked.connect(lambda: self.show_spot(result.WorstCheckGougePoint))
         self.form.play.clicked.connect(self.play_from_here)
         self.form.again.clicked.connect(self.verify_again)
 
@@ -146,6 +147,10 @@ def _is_history(result: Any) -> bool:
     return result.Outdated or result.Operation is None
 
 
+def _deepest_words(depth_mm: float) -> str:
+    return deviation_bands.length(depth_mm) if depth_mm < 0 else "none is cut"
+
+
 class VerificationForm(QtGui.QWidget):
     """The widgets alone."""
 
@@ -159,6 +164,9 @@ class VerificationForm(QtGui.QWidget):
         self.remainder = QtGui.QPushButton(deviation_bands.length(result.WorstRemainder.Value))
         layout.addRow("Least deviation", self.gouge)
         layout.addRow("Most that remains", self.remainder)
+        self.check = QtGui.QPushButton(_deepest_words(result.WorstCheckGouge.Value))
+        self.check.setEnabled(result.WorstCheckGouge.Value < 0)
+        layout.addRow("Deepest in other faces", self.check)
         self.resolution = FreeCADGui.UiLoader().createWidget("Gui::QuantitySpinBox")
         self.resolution.setProperty("unit", "mm")
         self.resolution.setProperty("minimum", LEAST_RESOLUTION_MM)

@@ -19,6 +19,7 @@ recess_mm = 6.0
 [footprint]
 side_step_mm = 50.0
 forward_step_mm = 25.0
+allow_gaps = true
 
 [method]
 name = "vcrf"

@@ -134,6 +134,25 @@ def test_spins_writes_the_spread_and_the_control(job_file: Path, tmp_path: Path)
     assert (tmp_path / "spins.png").exists() and (tmp_path / "spacing.png").exists()
 
 
+def test_spins_beside_the_part_are_told_and_nothing_is_written(job_file: Path, tmp_path: Path) -> None:
+    job_file.write_text(job_file.read_text().replace("vcrf", "exact"))
+    status, text, error = run(
+        "spins", job_file, "--out", tmp_path / "out", "--at", "75,75", "400,20", "--step-deg", 90
+    )
+    assert (status, text) == (2, "") and not (tmp_path / "out").exists()
+    assert error == "(400, 20): lies beside the part: no spin of the tool touches it there\n"
+
+
+def test_a_plan_that_leaves_cuts_out_is_not_good(job_file: Path, tmp_path: Path) -> None:
+    job_file.write_text(job_file.read_text().replace("allow_gaps = true", ""))
+    status, text, error = run("plan", job_file, "--out", tmp_path / "out")
+    assert (status, error) == (1, "")
+    assert text.startswith("Verdict: NOT GOOD: 10 moves between neighbours of a pass are not cut (")
+    assert "Worst gouge: -0.1755 mm at 99.836 5.428 92.427, after move 38 (cut, pass 2, position 15)" in text
+    report = json.loads((tmp_path / "out" / "report.json").read_text())
+    assert report["cut"]["worst_gouge"]["position"] == 15
+
+
 def test_bench_writes_the_rows_as_csv_too(job_file: Path, tmp_path: Path) -> None:
     arguments = ("--surfaces", job_file, "--methods", "dtm", "--threads", "1", "--out", tmp_path)
     assert run("bench", *arguments, "--csv", "bench.csv")[0] == 0
@@ -317,9 +336,10 @@ def test_cut_measures_a_plan_and_its_files(job_file: Path, tmp_path: Path) -> No
     ("words", "said"),
     [
         (["--resolution-mm", "0"], "--resolution-mm: must be a positive number"),
-        (["--section", "z=3"], "--section: must be x=… or y=…"),
+        (["--section", "w=3"], "--section: must be x=MM, y=MM, z=MM, line=X,Y:X,Y or point="),
+        (["--section", "x=75", "--section", "z=300"], "--section z300: the plane does not meet the faces"),
         (["--mesh", "a.3mf"], "a.3mf: a mesh file must end in one of"),
-        (["--resolution-mm", "0.0001"], "gives more than"),
+        (["--resolution-mm", "0.0001"], "mm would fit, or a small box"),
     ],
 )
 def test_cut_says_what_is_wrong(words: list[str], said: str, job_file: Path, tmp_path: Path) -> None:

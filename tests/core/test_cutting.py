@@ -11,13 +11,12 @@ import numpy as np
 import pytest
 
 from freecad_mpm import _core
-from freecad_mpm.core import cutting, planning
+from freecad_mpm.core import cut_memory, cutting, planning
 from freecad_mpm.core.errors import Cancelled
 from freecad_mpm.core.faces import FaceArrays
 from freecad_mpm.core.frame import Frame
 from freecad_mpm.core.job import Job, Part, ToolSpec
 from freecad_mpm.core.model import Scene, build_scene
-from freecad_mpm.core.stages import Stages
 
 BALL_MM = 5.0
 # More stock than the faces' own box, which ends on them.
@@ -182,8 +181,9 @@ def test_a_small_box_looks_closely(coarse: tuple[planning.Plan, cutting.Cut]) ->
     setup = plan.scene.frame.to_setup(cut.deviation.points)
     assert (setup >= small[0]).all() and (setup <= small[1]).all() and 4000 < len(setup) < 12_000
     assert cut.dexels.counts == [80, 80, 160]
-    with_stock, without = (cutting.memory_needed(plan.scene, 0.05, small, one) for one in (True, False))
-    assert cut.dexels.bytes == pytest.approx(with_stock - without, rel=0.5)
+    with_stock, without = (cut_memory.needed(plan.scene, 0.05, small, one) for one in (True, False))
+    assert cut_memory.MESH_TO_DEXELS * cut.dexels.bytes == pytest.approx(with_stock - without, rel=0.5)
+    assert without == pytest.approx(cut_memory.BYTES_A_POINT * len(setup), rel=0.3)
 
 
 def test_progress_and_cancel(coarse: tuple[planning.Plan, cutting.Cut]) -> None:
@@ -253,10 +253,3 @@ def _turned_model(scene: Scene, frame: Frame) -> object:
     from freecad_mpm.core.model import surface_model
 
     return surface_model(scene.machined, scene.check, frame)
-
-
-def test_stages_time_the_stock(coarse: tuple[planning.Plan, cutting.Cut]) -> None:
-    plan, _ = coarse
-    stages = Stages()
-    mesh = cutting.cut_stock(plan.scene, plan.path, 5.0, stages, "machined.stl")
-    assert len(mesh.triangles) and stages.seconds.keys() == {"machined.stl"}

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from freecad_mpm.core import deviation_bands, deviation_picture
+from freecad_mpm.core.cutting import Extreme
 
 COLOURS = deviation_bands.COLOURS
 BANDS = deviation_bands.bands(0.01)
@@ -53,8 +54,14 @@ def picture(deviation_mm: np.ndarray) -> np.ndarray:
     node = np.arange(x.size).reshape(x.shape)
     a, b, c, d = (part.ravel() for part in (node[:-1, :-1], node[:-1, 1:], node[1:, 1:], node[1:, :-1]))
     triangles = np.concatenate((np.column_stack((a, b, c)), np.column_stack((a, c, d))))
-    png = deviation_picture.render(points, triangles, deviation_mm, BANDS, "square")
-    return matplotlib.image.imread(io.BytesIO(png))[:, :950, :3]  # without the key
+    worst = [
+        Extreme(float(deviation_mm.min()), points[0], 3),
+        Extreme(float(deviation_mm.max()), points[-1], -1),
+        None,
+    ]
+    shown = deviation_picture.Map(points, triangles, deviation_mm, len(points), worst, 1.0)
+    png = deviation_picture.render(shown, BANDS, "square")
+    return matplotlib.image.imread(io.BytesIO(png))[:, :1050, :3]  # without the key
 
 
 def share_of(image: np.ndarray, band: int) -> float:

@@ -15,7 +15,7 @@ from freecad_mpm import _core
 from freecad_mpm.core import cl_file, job, planning, report, tools, verification
 from freecad_mpm.core.errors import Cancelled
 from freecad_mpm.core.job import FootprintSpec, Job, Part
-from freecad_mpm.core.motions import CONTROL_SHARE, control_deviation_deg, neighbours
+from freecad_mpm.core.motions import CONTROL_SHARE, control_deviation_deg
 from freecad_mpm.core.plan import Plan
 from freecad_mpm.core.resources import EXAMPLES, TOOLS
 from freecad_mpm.core.stages import Stages
@@ -116,7 +116,7 @@ def test_every_cut_of_a_proven_plan_is_proven(plan: Plan) -> None:
     cuts = plan.path.kind == "cut"
     assert (plan.path.clearance[cuts] >= -plan.job.tolerance.chord_mm).all()
     assert plan.report["positions"]["inserted"] == np.count_nonzero(plan.inserted) > 0
-    assert np.count_nonzero(cuts) == np.count_nonzero(neighbours(plan)) - plan.report["path"]["moves_not_cut"]
+    assert np.count_nonzero(cuts) == np.count_nonzero(plan.neighbours) - plan.report["path"]["moves_not_cut"]
     assert (np.diff(plan.pass_index) >= 0).all()
     # Passes run along y: what was put in stands in its place.
     for number in np.unique(plan.pass_index):

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from freecad_mpm.core.job import Tolerance
 from freecad_mpm.core.plan import Path, Positions
-from freecad_mpm.core.verdict import judge
+from freecad_mpm.core.verdict import gaps, judge
 
 TOLERANCE = Tolerance(gouge_mm=0.01, chord_mm=0.1)
 
@@ -65,8 +67,21 @@ CASES = [
 def test_verdict(
     case: str, where: Positions, moves: Path, machine: list[str], guarantee: str, trouble: str | None
 ) -> None:
-    verdict = judge(where, moves, machine, TOLERANCE, guarantee)
+    verdict = judge(where, moves, machine, TOLERANCE, guarantee, False)
     assert verdict.good is (trouble is None)
     if trouble:
         assert trouble in verdict.line
     assert ("no proof" in verdict.line) is (guarantee == "sampled")
+
+
+def test_a_cut_that_is_left_out_is_trouble_unless_it_is_allowed() -> None:
+    """Two positions of one pass, each plunged to."""
+    one, plunges = positions(low=0.0), path("plunge")
+    two = Positions(**{name: np.concatenate((value, value)) for name, value in vars(one).items()})
+    moves = Path(**{name: np.concatenate((value, value)) for name, value in vars(plunges).items()})
+    moves.position[:] = (0, 1)
+    assert gaps(two, moves).tolist() == [1]
+    strict, lenient = (judge(two, moves, [], TOLERANCE, "proven", allowed) for allowed in (False, True))
+    assert strict.troubles == ("1 moves between neighbours of a pass are not cut",) and lenient.good
+    cut = replace(moves, kind=np.array(["plunge", "cut"]))
+    assert judge(two, cut, [], TOLERANCE, "proven", False).good

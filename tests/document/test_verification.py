@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import FreeCAD
@@ -65,13 +66,54 @@ def test_a_path_that_is_too_low_is_found_out_with_the_move_that_gouged(op: Any) 
     assert moves.kind[result.WorstGougeMove] in ("cut", "plunge")
     tip = moves.tip[result.WorstGougeMove]
     assert np.linalg.norm(tip - np.array(result.WorstGougePoint)) < 2 * 12.7
+    # The walls under the borders of the top are not picked; they are cut as deep.
+    assert -0.53 < result.WorstCheckGouge.Value < -0.4
+    assert 0 <= result.WorstCheckGougeMove < len(moves.kind)
+    assert moves.kind[result.WorstCheckGougeMove] in ("cut", "plunge")
+    assert wall_distance(op, result.WorstCheckGougePoint) < 1e-6
+    found = verification.deviation_of(result)
+    assert found.deviation_mm[found.measured :].min() == pytest.approx(result.WorstCheckGouge.Value, abs=1e-6)
     assert not result.Good
     assert any(line.startswith("below -0.1 mm") for line in result.Bands)
 
 
+def wall_distance(op: Any, point: Any) -> float:
+    """From the faces of the model that are not picked."""
+    import Part
+
+    model, picked = op.Base[0]
+    walls = [face for i, face in enumerate(model.Shape.Faces, 1) if f"Face{i}" not in picked]
+    return min(face.distToShape(Part.Vertex(point))[0] for face in walls)
+
+
+def test_faces_that_are_not_picked_and_not_cut_are_told_so(op: Any, result: Any) -> None:
+    assert -op.ChordTolerance.Value <= result.WorstCheckGouge.Value <= 0
+    result = verification.verify(op, 4.0)
+    found = verification.deviation_of(result)
+    assert (found.deviation_mm[found.measured :] >= -op.ChordTolerance.Value).all()
+
+
+def test_the_memory_is_said_before_and_refused_with_what_would_fit(
+    op: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from freecad_mpm.core import cut_memory
+
+    lines = []
+    with monkeypatch.context() as patch:
+        patch.setattr(
+            hooks, "run", lambda call: lines.append("started") or call(on_progress=None, cancel=None)
+        )
+        patch.setattr(verification.FreeCAD, "Console", SimpleNamespace(PrintMessage=lines.append))
+        verification.verify(op, 2.0)
+    assert "A cut at 2 mm takes about" in lines[0] and lines[1] == "started"
+    monkeypatch.setattr(cut_memory, "available", lambda: 5e6)
+    with pytest.raises(InputError, match=r"Resolution: 0.05 mm takes .* may be used; [\d.]+ mm would fit"):
+        verification.verify(op, 0.05)
+
+
 def test_the_stored_deviation_holds_the_extremes(result: Any) -> None:
     found = verification.deviation_of(result)
-    assert found.deviation_mm.min() == pytest.approx(result.WorstGouge.Value, abs=1e-6)
+    assert found.deviation_mm[: found.measured].min() == pytest.approx(result.WorstGouge.Value, abs=1e-6)
     assert found.deviation_mm.max() == pytest.approx(result.WorstRemainder.Value, rel=1e-6)
     row = found.nearest(result.WorstRemainderPoint)
     assert found.deviation_mm[row] == pytest.approx(result.WorstRemainder.Value, rel=1e-6)

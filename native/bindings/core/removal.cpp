@@ -2,6 +2,7 @@
 #include "mpm/removal/dexel_mesh.h"
 #include "mpm/removal/dexel_stock.h"
 #include "mpm/removal/normal_rays.h"
+#include "mpm/removal/overcut.h"
 #include "mpm/removal/surface_samples.h"
 
 namespace mpm::bindings {
@@ -10,17 +11,37 @@ namespace {
 using FlagArray = py::array_t<bool, py::array::c_style | py::array::forcecast>;
 using IntArray = py::array_t<std::int32_t, py::array::c_style | py::array::forcecast>;
 
-ToolSweep make_sweep(const Tool& tool,
-                     const DoubleArray& tip,
-                     const DoubleArray& axis,
-                     const FlagArray& removes) {
+SweptPath to_path(const DoubleArray& tip, const DoubleArray& axis, const FlagArray& removes) {
   const std::vector<Vec3> tips = to_vectors<Vec3>(tip, "tip"), axes = to_vectors<Vec3>(axis, "axis");
   require(tips.size() == axes.size(), "tip and axis must have the same shape (M, 3)");
   require(removes.ndim() == 1, "removes must have shape (M,), got " + shape_of(removes));
   SweptPath path;
   for (std::size_t i = 0; i < tips.size(); ++i) path.poses.push_back({tips[i], axes[i]});
   path.removes.assign(removes.data(), removes.data() + removes.size());
-  return {tool, path};
+  return path;
+}
+
+ToolSweep make_sweep(const Tool& tool,
+                     const DoubleArray& tip,
+                     const DoubleArray& axis,
+                     const FlagArray& removes) {
+  return {tool, to_path(tip, axis, removes)};
+}
+
+py::tuple overcut(const Tool& tool,
+                  const DoubleArray& tip,
+                  const DoubleArray& axis,
+                  const FlagArray& removes,
+                  const DoubleArray& points,
+                  Context& context) {
+  const SweptPath path = to_path(tip, axis, removes);
+  const std::vector<Vec3> at = to_vectors<Vec3>(points, "points");
+  Overcut found;
+  {
+    py::gil_scoped_release release;
+    found = find_overcut(at, tool, path, context);
+  }
+  return py::make_tuple(from_scalars(found.depth), from_scalars(found.move));
 }
 
 py::array_t<std::uint32_t> from_triangles(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
@@ -155,6 +176,19 @@ void bind_removal(py::module_& m) {
       "Where the material on rays from the true surface outwards ends after the cut: height (N,) mm, below 0 "
       "where the tool cut in, down to -below_mm; and the moves (N,) that cut there, -1: none. height, move: "
       "before the cut.");
+  m.def("overcut",
+        &overcut,
+        py::arg("tool"),
+        py::arg("tip"),
+        py::arg("axis"),
+        py::arg("removes"),
+        py::arg("points"),
+        py::kw_only(),
+        py::arg("context"),
+        "How deep points (N, 3) that are to stay lie inside what the tool sweeps: depth (N,) mm, 0 where it "
+        "never "
+        "holds them, and the moves (N,) that go deepest there, -1: none. tip, axis, removes: as for "
+        "ToolSweep.");
   m.def("sample_surfaces",
         &surface_samples,
         py::arg("model"),

@@ -1,6 +1,7 @@
 #include "mpm/gouge/clearance_sampler.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace mpm {
@@ -12,8 +13,25 @@ constexpr std::size_t kRefined = 4;  // tiles refined
 constexpr int kMaxSplit = 64;        // tiles along each side of a patch
 constexpr double kTilesPerRadius = 2.0;
 constexpr double kMaxTiles = 1e6;
+constexpr double kSafety = 1e-6;  // mm, far above what rounding makes of a bound
 
 double lerp(double a, double b, int i) { return i == kGrid ? b : a + (b - a) * i / kGrid; }
+
+// The kRefined least of some values, or `limit` where there are fewer.
+class Lowest {
+ public:
+  explicit Lowest(double limit) { values_.fill(limit); }
+  double last() const { return values_.back(); }
+  void add(double value) {
+    if (value >= last()) return;
+    values_.back() = value;
+    for (std::size_t i = kRefined - 1; i > 0 && values_[i] < values_[i - 1]; --i)
+      std::swap(values_[i], values_[i - 1]);
+  }
+
+ private:
+  std::array<double, kRefined> values_;
+};
 
 ParamBox around(double u, double v, double du, double dv, const ParamBox& limit) {
   return {std::max(u - du, limit.u0),
@@ -39,8 +57,12 @@ ClearanceSampler::ClearanceSampler(const SurfaceModel& model, const Tool& tool) 
                             i + 1 == n ? b.u1 : b.u0 + du * (i + 1),
                             b.v0 + dv * j,
                             j + 1 == n ? b.v1 : b.v0 + dv * (j + 1)};
-        tiles_.push_back({ref.patch, ref.face, ref.cover == TrimRegion::Cover::crossing, part});
-        boxes.push_back(ref.patch->restricted(part).bounds());
+        const Box3 bounds = ref.patch->restricted(part).bounds();
+        const Vec3 middle =
+            ref.patch->point(lerp(part.u0, part.u1, kGrid / 2), lerp(part.v0, part.v1, kGrid / 2));
+        const bool trimmed = ref.cover == TrimRegion::Cover::crossing;
+        tiles_.push_back({ref.patch, ref.face, trimmed, part, middle, ball_around(bounds)});
+        boxes.push_back(bounds);
       }
   }
   tree_ = BoxTree(boxes);
@@ -60,13 +82,43 @@ void ClearanceSampler::sample(const Tile& tile,
     }
 }
 
+ClearanceSampler::Ball ClearanceSampler::ball_around(const Box3& box) {
+  return {box.center(), 0.5 * box.diagonal() + kSafety};
+}
+
+// A signed distance changes by no more than the way from point to point.
+double ClearanceSampler::bound(const Ball& ball, const ToolPose& pose) const {
+  return signed_distance(tool_, pose, ball.center) - ball.radius;
+}
+
+// The tiles that may hold one of the kRefined lowest samples, the lowest bound first.
+std::vector<ClearanceSampler::Candidate> ClearanceSampler::candidates(const ToolPose& pose,
+                                                                      double range) const {
+  std::vector<Candidate> found;
+  Lowest middles(range);
+  const auto near = [&](const Box3& box) { return bound(ball_around(box), pose) <= middles.last(); };
+  tree_.visit(near, [&](std::uint32_t i) {
+    const Tile& tile = tiles_[i];
+    found.push_back({bound(tile.ball, pose), &tile});
+    if (!tile.trimmed) middles.add(signed_distance(tool_, pose, tile.middle));
+  });
+  std::erase_if(found, [&](const Candidate& one) { return one.bound > middles.last(); });
+  std::sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
+    return a.bound != b.bound ? a.bound < b.bound : a.tile < b.tile;
+  });
+  return found;
+}
+
 SampledClearance ClearanceSampler::operator()(const ToolPose& pose, double range) const {
   std::vector<Sample> samples;
-  tree_.visit(tool_bounds(tool_, pose, range), [&](std::uint32_t i) {
+  Lowest lowest(range);
+  for (const Candidate& one : candidates(pose, range)) {
+    if (one.bound > lowest.last()) break;
     Sample best{range, 0, 0, nullptr};
-    sample(tiles_[i], tiles_[i].box, pose, best);
+    sample(*one.tile, one.tile->box, pose, best);
     if (best.tile) samples.push_back(best);
-  });
+    lowest.add(best.distance);
+  }
   const std::size_t keep = std::min(samples.size(), kRefined);
   std::partial_sort(
       samples.begin(), samples.begin() + std::ptrdiff_t(keep), samples.end(), [](auto& a, auto& b) {

@@ -20,21 +20,35 @@ class ClearanceSampler {
 
   // Least signed distance of sampled surface points (trimmed away ones left out) from the tool's body at
   // `pose`, refined round the lowest samples. Surfaces farther than `range` mm count as `range` away. Same
-  // answer from any thread.
+  // answer from any thread. Tiles whose box proves that they cannot be among the lowest are not sampled; the
+  // answer is that of sampling all.
   SampledClearance operator()(const ToolPose& pose, double range) const;
 
  private:
+  struct Ball {
+    Vec3 center;
+    double radius;
+  };
   struct Tile {
     const BezierPatch* patch;
     std::uint32_t face;
     bool trimmed;
     ParamBox box;
+    Vec3 middle;  // one of the tile's samples
+    Ball ball;    // contains the tile
   };
   struct Sample {
     double distance;
     double u, v;
     const Tile* tile;
   };
+  struct Candidate {
+    double bound;  // no point of the tile is nearer
+    const Tile* tile;
+  };
+  static Ball ball_around(const Box3& box);
+  double bound(const Ball& ball, const ToolPose& pose) const;
+  std::vector<Candidate> candidates(const ToolPose& pose, double range) const;
   void sample(const Tile& tile, const ParamBox& part, const ToolPose& pose, Sample& best) const;
 
   const SurfaceModel& model_;
