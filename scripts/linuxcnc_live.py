@@ -63,6 +63,7 @@ SAMPLE = (
 )
 SWITCH = "o<{0}> sub\nM68 E3 Q{1}\nM66 E0 L0\no<{0}> endsub\nM2\n"
 LONGEST_RUN_S = 1800.0
+HZ = 1000  # samples a second
 
 
 def run(folder, program):
@@ -131,7 +132,7 @@ def compare(folder, program):
     tip = kinematics.tips(machine, joints[:, :3], joints[:, [4, 3]], np.zeros(3), TOOL_LENGTH_MM)
     axis = kinematics.tool_axes(machine, joints[:, [4, 3]])
     ends = kinematics.tool_axes(machine, np.column_stack((motion.angles["C"], motion.angles["A"])))
-    worst = {"feed": [0.0, 0.0, 0.0, 0], "rapid": [0.0, 0.0, 0.0, 0]}
+    worst = {"feed": [0.0, 0.0, 0.0, 0, 0.0], "rapid": [0.0, 0.0, 0.0, 0, 0.0]}
     rows = np.flatnonzero(motion.tcp[1:] & motion.tcp[:-1]) + 1
     for row in rows[np.isfinite(motion.tip[rows - 1]).all(axis=1)].tolist():
         here = line == motion.block[row] + 1
@@ -148,13 +149,17 @@ def compare(folder, program):
         )
         found = worst["rapid" if motion.rapid[row] else "feed"]
         swing = np.ptp(joints[here, 4])
-        found[:] = [*np.maximum(found[:3], (*off.max(axis=0), swing)), found[3] + 1]
-    for kind, (tip_mm, axis_deg, swing_deg, count) in worst.items():
+        found[:] = [
+            *np.maximum(found[:3], (*off.max(axis=0), swing)),
+            found[3] + 1,
+            found[4] + here.sum() / HZ,
+        ]
+    for kind, (tip_mm, axis_deg, swing_deg, count, seconds) in worst.items():
         print(
-            f"{kind}: {count:.0f} blocks, tip off <= {1000 * tip_mm:.3f} µm, axis off <= {axis_deg:.4f} deg, "
-            f"largest turn of C {swing_deg:.3f} deg"
+            f"{kind}: {count:.0f} blocks in {seconds:.1f} s, tip off <= {1000 * tip_mm:.3f} µm, "
+            f"axis off <= {axis_deg:.4f} deg, largest turn of C {swing_deg:.3f} deg"
         )
-    print(f"{len(samples) / 1000:.1f} s")
+    print(f"{len(samples) / HZ:.1f} s with what comes before and after")
 
 
 def _off(tips, ends, row, tip, axis, kinematics):

@@ -45,7 +45,8 @@ create() {
   chmod +x "$root/usr/sbin/policy-rc.d"
   cp /etc/resolv.conf "$root/etc/resolv.conf"
   echo 'path-exclude=/usr/share/doc/*' > "$root/etc/dpkg/dpkg.cfg.d/nodoc"
-  inside apt-get update
+  # A mirror may lag behind the days for which its index says it is good; its signature is checked all the same.
+  inside apt-get -o Acquire::Check-Valid-Until=false update
   # shellcheck disable=SC2086  # a list of words
   inside apt-get install -y --no-install-recommends $packages
   inside apt-get clean

@@ -26,6 +26,7 @@ class Walk:
         self._tip = [tuple(p) for p in tip]
         self._axis = [tuple(d) for d in axis]
         self._tip_tolerance_mm, self._axis_tolerance_deg = tip_tolerance_mm, axis_tolerance_deg
+        self._allowed_deg = axis_tolerance_deg  # of the step that is looked at
         self._may_rise = may_rise
         self._away = True  # not on the list yet, or for another tool
         self.next = 0  # pose of the list that is expected
@@ -49,8 +50,10 @@ class Walk:
     def axis_error_deg(self) -> float:
         return max(self._worst[1], self._last[1])
 
-    def step(self, tip: Point, axis: Point, rapid: bool) -> str:
-        """The program's next pose: what is wrong with it, or an empty string."""
+    def step(self, tip: Point, axis: Point, rapid: bool, axis_slack_deg: float = 0.0) -> str:
+        """The program's next pose: what is wrong with it, or an empty string. axis_slack_deg: by how much more than the
+        tolerance its axis may be off."""
+        self._allowed_deg = self._axis_tolerance_deg + axis_slack_deg
         if self._meets(self.next, tip, axis):
             self._go_to(self.next, tip, axis)
         elif self._away:
@@ -68,7 +71,7 @@ class Walk:
 
     def _in_tolerances(self, errors: Errors) -> float:
         """The errors as a multiple of what is allowed; not a number when the tip is not known."""
-        in_tip, in_axis = errors[0] / self._tip_tolerance_mm, errors[1] / self._axis_tolerance_deg
+        in_tip, in_axis = errors[0] / self._tip_tolerance_mm, errors[1] / self._allowed_deg
         return in_tip if math.isnan(in_tip) else max(in_tip, in_axis)
 
     def _meets(self, pose: int, tip: Point, axis: Point, tolerances: float = 1.0) -> bool:
@@ -92,7 +95,7 @@ class Walk:
             return False
         # turned / turn = travelled / way, as far as the two tolerances let them be told apart
         uneven = abs(travelled * turn - turned * way)
-        if not rapid and uneven > self._axis_tolerance_deg * way + self._tip_tolerance_mm * turn:
+        if not rapid and uneven > self._allowed_deg * way + self._tip_tolerance_mm * turn:
             return False
         self._note((off_line, off_circle))
         return True

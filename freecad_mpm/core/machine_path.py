@@ -19,12 +19,25 @@ Integers = NDArray[np.int64]
 SAME_ANGLE_DEG = 1e-9
 
 OFF_LINE = "off_line"
+# What is wrong, and what a user can do about it.
 TROUBLE = {
-    "unreachable": "the rotary axes cannot give the tool's direction",
-    "rotary_limit": "a rotary axis leaves its limits",
-    "linear_limit": "a linear axis leaves its limits",
-    "forced_turn": "the cut needs a rewind or the other rotary solution",
-    OFF_LINE: "between its ends the tool leaves its way by more than the tolerance",
+    "unreachable": (
+        "the rotary axes cannot give the tool's direction",
+        "tilt the set-up, or lessen tilt_max_deg; along the first rotary axis itself: a larger pole_cone_deg",
+    ),
+    "rotary_limit": (
+        "a rotary axis leaves its limits",
+        "turn the set-up or the feed direction; an axis of less than a whole turn cannot rewind",
+    ),
+    "linear_limit": ("a linear axis leaves its limits", "move the part: part_origin_mm of the machine"),
+    "forced_turn": (
+        "the cut needs a rewind or the other rotary solution",
+        "turn the set-up or the feed direction, or allow_flip; an axis of less than a whole turn cannot rewind",
+    ),
+    OFF_LINE: (
+        "between its ends the tool leaves its way by more than the tolerance",
+        "raise chord_mm",
+    ),
 }
 # Under the end of the Z axis, where a machine without tool-centre-point control turns out of the part's way; over the
 # program's highest place when the axis has no end.
@@ -42,17 +55,17 @@ class MachinePath(Moves):
     at_pole: Flags  # (M,) inside the machine's pole cone: the first rotary axis follows its neighbours
 
     def troubles(self, position: Integers | None = None) -> list[str]:
-        """One line for each kind of trouble: how many moves have it, and the first of the given moves that has.
+        """One line for each kind of trouble: how many moves have it, the first given move that has, and a remedy.
 
         position: (N,) of the given moves, as in a plan's path: the line then also names the position that is near.
         """
         lines = []
-        for status, meaning in TROUBLE.items():
+        for status, (meaning, remedy) in TROUBLE.items():
             rows = np.flatnonzero(self.status == status)
             if len(rows):
                 first = int(self.source[rows[0]])
                 at = "" if position is None else _near(position, first)
-                lines.append(f"{meaning}: {len(rows)} moves, the first in move {first}{at}")
+                lines.append(f"{meaning}: {len(rows)} moves, the first in move {first}{at} ({remedy})")
         return lines
 
 

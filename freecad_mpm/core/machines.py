@@ -31,6 +31,11 @@ def limit(unit: str) -> Check:
     return check
 
 
+def positive_or_none(unit: str) -> Check:
+    """A positive number that an axis may also not know: inf."""
+    return lambda value: value if value == math.inf else positive(unit)(value)
+
+
 def one(kind: type[S]) -> Callable[[Any], S]:
     """Check for a table of this kind."""
     return lambda value: value if isinstance(value, kind) else kind.from_table(value)
@@ -58,9 +63,12 @@ class LinearAxis(Section):
     max_limit_mm: float = key(limit("mm"), math.inf)
     max_velocity_mm_per_min: float = key(positive("mm/min"))
     max_acceleration_mm_per_s2: float = key(positive("mm/s2"))
+    max_jerk_mm_per_s3: float = key(positive_or_none("mm/s3"), math.inf)
 
     def native(self) -> _core.LinearAxis:
-        return _core.LinearAxis(**{k: v for k, v in vars(self).items() if k != "name"})
+        return _core.LinearAxis(
+            **{k: v for k, v in vars(self).items() if k not in ("name", "max_jerk_mm_per_s3")}
+        )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -79,9 +87,10 @@ class RotaryAxis(Section):
     max_limit_deg: float = key(limit("degrees"), math.inf)
     max_velocity_deg_per_min: float = key(positive("degrees per minute"))
     max_acceleration_deg_per_s2: float = key(positive("degrees per s2"))
+    max_jerk_deg_per_s3: float = key(positive_or_none("degrees per s3"), math.inf)
 
     def native(self) -> _core.RotaryAxis:
-        return _core.RotaryAxis(**vars(self))
+        return _core.RotaryAxis(**{k: v for k, v in vars(self).items() if k != "max_jerk_deg_per_s3"})
 
 
 def _sense(value: Any) -> int:
@@ -113,6 +122,16 @@ class MachineSetup(Section):
 
 
 @dataclass(frozen=True, kw_only=True)
+class MachineControl(Section):
+    """How the control takes its blocks; only the estimated time knows of it."""
+
+    table: ClassVar[str] = "control"
+
+    block_time_ms: float = key(not_negative("ms"), 0.0)
+    stops_at_blocks: bool = key(flag, False)
+
+
+@dataclass(frozen=True, kw_only=True)
 class Machine(Section):
     """One machine file. `rotary_axes` are listed from the part to the tool, `linear_axes` are X, Y, Z."""
 
@@ -123,6 +142,7 @@ class Machine(Section):
     unconfirmed: bool = key(flag)
     kinematics: Kinematics = key(one(Kinematics))
     setup: MachineSetup = key(one(MachineSetup))
+    control: MachineControl = key(one(MachineControl), MachineControl())
     rotary_axes: tuple[RotaryAxis, ...] = key(several(RotaryAxis, 2))
     linear_axes: tuple[LinearAxis, ...] = key(several(LinearAxis, 3))
 

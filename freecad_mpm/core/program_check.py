@@ -54,28 +54,39 @@ def check_round_trip(
     control: Control = Control(),
 ) -> RoundTrip:
     """Every pose of the CL list (tip (N, 3), axis (N, 3), the program's frame) is met in its order, under M128 or by the
-    joints, and blocks between two of them stay on the straight line and the great circle that join them."""
+    joints, and blocks between two of them stay on the straight line and the great circle that join them. In the
+    machine's pole cone the axis may be off by twice the cone more: the first rotary axis turns there."""
     motion = program.motion()
     poses = poses_of(motion, machine, control)
+    in_cone = _in_pole_cone(machine, poses.axis, axis_tolerance_deg)
+    at_most = min(2 * machine.kinematics.pole_cone_deg, control.between_deg)
+    slack_deg = np.where(in_cone, at_most, 0.0).tolist()
     walk = Walk(tip, axis, tip_tolerance_mm, axis_tolerance_deg, may_rise=not control.tcp)
     findings = []
     rapid = motion.rapid[poses.row].tolist()
     tools = [i for i, block in enumerate(program.blocks) if "T" in block.words]
     calls = np.searchsorted(tools, motion.block[poses.row]).tolist()  # tool calls before each pose
     last_call = 0
-    for call, row, at, direction, fast in zip(
-        calls, poses.row.tolist(), poses.tip.tolist(), poses.axis.tolist(), rapid
+    for call, row, at, direction, fast, slack in zip(
+        calls, poses.row.tolist(), poses.tip.tolist(), poses.axis.tolist(), rapid, slack_deg
     ):
         if call != last_call:
             walk.leave()
             last_call = call
-        message = walk.step(at, direction, fast)
+        message = walk.step(at, direction, fast, slack)
         if message:
             findings.append(finding_at("round trip", program, motion, row, message))
     if walk.next < len(tip):
         message = f"pose {walk.next} of {len(tip)} in the CL list is not met"
         findings.append(Finding("round trip", None, "", message))
     return RoundTrip(findings, walk.tip_error_mm, walk.axis_error_deg)
+
+
+def _in_pole_cone(machine: Machine, axes: Floats, rounding_deg: float) -> NDArray[np.bool_]:
+    """Which of the tool axes (N, 3) stand in the machine's pole cone, where both rotary solutions meet."""
+    return np.asarray(
+        kinematics.pole_distance_deg(machine, axes) <= machine.kinematics.pole_cone_deg + rounding_deg
+    )
 
 
 def check_limits(program: ParsedProgram, machine: Machine, control: Control = Control()) -> list[Finding]:
@@ -196,14 +207,18 @@ def _solution_changes(
     cuts: NDArray[np.bool_],
 ) -> list[Finding]:
     """Feed moves in which the rotary solution is not the one of the feed moves before; where both meet, at the pole and
-    at the end of the reach, it is neither."""
-    side = kinematics.solution_side(machine, angles_of(motion, machine))
+    at the end of the reach, it is neither, and at the pole it may change."""
+    angles = angles_of(motion, machine)
+    side = kinematics.solution_side(machine, angles)
+    at_pole = _in_pole_cone(machine, kinematics.tool_axes(machine, angles), AXIS_TOLERANCE_DEG)
+    poles = np.cumsum(at_pole)  # rows at the pole up to each
     run = np.cumsum(
         np.append(True, ~cuts)
     )  # feed moves without another move between them have the same number
     clear = np.flatnonzero(known & (np.abs(side) > SIDE_EPSILON))
     before, after = clear[:-1], clear[1:]
-    changed = after[(run[before] == run[after]) & (side[before] * side[after] < 0)]
+    through_pole = (poles[after] > poles[before]) | at_pole[before]
+    changed = after[(run[before] == run[after]) & (side[before] * side[after] < 0) & ~through_pole]
     message = "the rotary axes change to their other solution in a cut"
     return [finding_at("continuity", program, motion, row, message) for row in changed.tolist()]
 

@@ -95,11 +95,12 @@ def report(
     origin = np.array(setup.part_origin_mm if part_origin_mm is None else part_origin_mm)
     length = setup.tool_length_mm if tool_length_mm is None else tool_length_mm
     linear = kinematics.linear_readings(machine, moves.tip, moves.angles_deg, origin, length)
+    blends = program.options.path_tolerance_mm > 0
     passages, nearest = _pole_passages(machine, moves)
     return ProgramReport(
         blocks=blocks,
         length_mm=_by_kind(moves, _steps(moves.tip)),
-        time_s=_by_kind(moves, move_seconds(machine, moves, linear)),
+        time_s=_by_kind(moves, move_seconds(machine, moves, linear, blends)),
         axes=_axis_use(machine, moves, linear),
         largest_step_deg=_largest_steps(machine, moves),
         pole_passages=passages,

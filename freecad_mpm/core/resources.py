@@ -1,4 +1,4 @@
-"""Where the shipped machines, tools and examples are."""
+"""Where the shipped machines, tools, examples and forms are."""
 
 from __future__ import annotations
 
@@ -8,3 +8,4 @@ RESOURCES = Path(__file__).resolve().parents[2] / "resources"
 TOOLS = RESOURCES / "tools"
 MACHINES = RESOURCES / "machines"
 EXAMPLES = RESOURCES / "examples"
+FORMS = RESOURCES / "ui"

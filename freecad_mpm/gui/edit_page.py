@@ -6,10 +6,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-import FreeCADGui
 from PySide import QtGui
 
 from ..document import compat, properties
+from . import panels
 
 QUANTITY_UNITS = {"Length": "mm", "Distance": "mm", "Angle": "deg"}
 
@@ -23,6 +23,7 @@ class Field:
     read: Callable[[], Any]
     write: Callable[[Any], None]
     changed: Any  # the signal
+    holder: Any = None  # of the widget, where it does not stand in the form itself
 
     def to_property(self, obj: Any) -> None:
         """Assign only what differs: an assignment makes the operation recompute."""
@@ -47,7 +48,7 @@ class EditPage(compat.op_gui.TaskPanelPage):
         self._fields = [_field(self.obj, one) for one in properties.settings()]
         for one, field in zip(properties.settings(), self._fields):
             field.widget.setToolTip(one.doc)
-            layout.addRow(_words(one.name), field.widget)
+            layout.addRow(_words(one.name), field.holder or field.widget)
         self._result = QtGui.QLabel()
         self._result.setWordWrap(True)
         layout.addRow(self._result)
@@ -87,14 +88,14 @@ def _field(obj: Any, one: properties.Property) -> Field:
 
 
 def _quantity_field(one: properties.Property) -> Field:
-    box = FreeCADGui.UiLoader().createWidget("Gui::QuantitySpinBox")
-    box.setProperty("unit", QUANTITY_UNITS[one.type])
+    holder, box = panels.quantity_field(QUANTITY_UNITS[one.type])
     return Field(
         one.name,
         box,
         lambda: box.property("rawValue"),
         lambda v: box.setProperty("rawValue", v),
         box.editingFinished,
+        holder,
     )
 
 

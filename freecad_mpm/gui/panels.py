@@ -11,6 +11,7 @@ import FreeCADGui
 from PySide import QtCore, QtGui
 
 from ..core.errors import InputError
+from ..core.resources import FORMS
 
 
 def only_close() -> int:
@@ -31,6 +32,16 @@ def view_of(document: Any) -> Any:
     if not hasattr(view, "getSceneGraph"):
         raise InputError(f"{document.Label}: its 3D view must be the active one")
     return view
+
+
+def quantity_field(unit: str) -> tuple[Any, Any]:
+    """A widget to put into a form, and the Gui::QuantitySpinBox in it.
+
+    As FreeCAD's own panels have it, from a form: one that Gui.UiLoader made damages 1.1's memory once it loses the focus
+    to the 3D view."""
+    field = FreeCADGui.PySideUic.loadUi(str(FORMS / "quantity.ui"))
+    field.box.setProperty("unit", unit)
+    return field, field.box
 
 
 @contextmanager

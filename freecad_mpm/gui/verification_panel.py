@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import FreeCADGui
-from pivy import coin
 from PySide import QtCore, QtGui
 
 from ..core import deviation_bands
@@ -16,6 +16,7 @@ from . import panels
 from .playback_nodes import PlaybackNodes, Stage
 from .spot_node import SpotNode
 
+CLICKS = "SoMouseButtonEvent"
 SWATCH_PX = 16
 LEAST_RESOLUTION_MM = 0.001
 # A click takes a point that it passes within so many spacings of the points.
@@ -32,9 +33,8 @@ class VerificationPanel:
         self.move = verification.NO_MOVE  # that cut the spot last
         self._found = verification.deviation_of(result)
         self._view = panels.view_of(result.Document)
-        self._callback = self._view.addEventCallbackPivy(
-            coin.SoMouseButtonEvent.getClassTypeId(), self._clicked
-        )
+        # Not the one with Coin's own events: of their position FreeCAD 1.1's pivy gives no more than a pointer.
+        self._callback = self._view.addEventCallback(CLICKS, self._clicked)
         self._spot = SpotNode(self._view)
         self._stage: Stage | None = None
         self._watch = panels.Watch(result, self._recomputed, self.reject)
@@ -71,25 +71,27 @@ class VerificationPanel:
         from .playback_panel import open_panel as open_playback
 
         op, move = self.result.Operation, self.move
-        self.reject()
-        # FreeCAD takes the closed panel away only when this click is dealt with.
-        QtCore.QTimer.singleShot(0, lambda: open_playback(op).go_to_move(move))
+        self._leave_for(lambda: open_playback(op).go_to_move(move))
 
     def verify_again(self) -> None:
         """With the resolution of the field; a panel of the new result takes the place of this one."""
         op, resolution_mm = self.result.Operation, self.form.resolution.property("rawValue")
-        self.reject()
-        QtCore.QTimer.singleShot(0, lambda: run_and_show(op, resolution_mm))
+        self._leave_for(lambda: run_and_show(op, resolution_mm))
 
     def close(self) -> None:
         """Calling it again changes nothing."""
         if self._watch.active:
-            self._view.removeEventCallbackPivy(coin.SoMouseButtonEvent.getClassTypeId(), self._callback)
+            self._view.removeEventCallback(CLICKS, self._callback)
             self._spot.clear()
         self._watch.end()
         self._clear_tool()
 
     # ------------------------------------------------------------------ inside
+
+    def _leave_for(self, following: Callable[[], Any]) -> None:
+        """Close, then go on: not now, for closing deletes the button whose click this is."""
+        QtCore.QTimer.singleShot(0, self.reject)
+        QtCore.QTimer.singleShot(0, following)
 
     def _recomputed(self) -> None:
         """The moves that the result knows may be others now."""
@@ -103,12 +105,10 @@ class VerificationPanel:
             self._stage.clear()
             self._stage = None
 
-    def _clicked(self, node: Any) -> None:
-        event = node.getEvent()
-        pressed = event.getState() == coin.SoButtonEvent.DOWN
-        if event.getButton() != coin.SoMouseButtonEvent.BUTTON1 or not pressed:
+    def _clicked(self, event: dict[str, Any]) -> None:
+        if event["Button"] != "BUTTON1" or event["State"] != "DOWN":
             return
-        line = self._view.projectPointToLine(*event.getPosition().getValue())
+        line = self._view.projectPointToLine(*event["Position"])
         row = self._found.first_on_line(*line, PICK_REACH * self.result.Resolution.Value)
         if row is not None:
             self.show_spot(self._found.points[row])
@@ -167,14 +167,13 @@ class VerificationForm(QtGui.QWidget):
         self.check = QtGui.QPushButton(_deepest_words(result.WorstCheckGouge.Value))
         self.check.setEnabled(result.WorstCheckGouge.Value < 0)
         layout.addRow("Deepest in other faces", self.check)
-        self.resolution = FreeCADGui.UiLoader().createWidget("Gui::QuantitySpinBox")
-        self.resolution.setProperty("unit", "mm")
+        field, self.resolution = panels.quantity_field("mm")
         self.resolution.setProperty("minimum", LEAST_RESOLUTION_MM)
         self.resolution.setProperty("rawValue", result.Resolution.Value)
         self.resolution.setToolTip("Distance of the points looked at; their deviations do not depend on it")
         self.again = QtGui.QPushButton("Verify again")
         self.again.setEnabled(result.Operation is not None)
-        layout.addRow("Resolution", self.resolution)
+        layout.addRow("Resolution", field)
         layout.addRow(self.again)
         self._add_bands(layout, result)
         self._hint = QtGui.QLabel(HINT)

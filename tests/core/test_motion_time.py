@@ -1,21 +1,37 @@
-"""The time of moves: closed forms of straight lines, corners, circles and turns."""
+"""The time of moves: closed forms of straight lines, corners, circles and turns, with jerk and without."""
 
 import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from machine_samples import directions
 
 from freecad_mpm.core import kinematics, machines
+from freecad_mpm.core.axis_ramps import ramp_seconds, rest_to_rest_seconds
+from freecad_mpm.core.errors import InputError
 from freecad_mpm.core.machine_path import machine_path
 from freecad_mpm.core.motion_time import move_seconds, slowed_cuts
 
 # 500 mm/s and 5000 mm/s2 along X, Y and Z; 120 deg/s and 360 deg/s2 of both rotary axes
 MACHINE = "table_bc"
 LINEAR, ROTARY = 5000.0, (120.0, 360.0)
+JERK = 50_000.0  # mm/s3: 5000 mm/s2 are reached in 0.1 s
 
 
-def seconds_of(tip, axis, feed_mm_per_s, kind=None):
+def with_jerk(jerk=JERK, **control):
+    """The machine with a jerk for X, Y and Z, and a control of its own."""
+    machine = machines.load(MACHINE)
+    axes = tuple(replace(axis, max_jerk_mm_per_s3=jerk) for axis in machine.linear_axes)
+    return replace(machine, linear_axes=axes, control=machines.MachineControl(**control))
+
+
+def seconds_of(tip, axis, feed_mm_per_s, kind=None, machine=None):
+    return move_seconds(machine or machines.load(MACHINE), *moves_of(tip, axis, feed_mm_per_s, kind))
+
+
+def moves_of(tip, axis, feed_mm_per_s, kind=None):
+    """The moves of the machine, and the readings of X, Y and Z."""
     machine, count = machines.load(MACHINE), len(tip)
     kind = np.array(["rapid"] + ["cut"] * (count - 1)) if kind is None else kind
     moves = machine_path(
@@ -27,7 +43,7 @@ def seconds_of(tip, axis, feed_mm_per_s, kind=None):
         axis_tolerance_deg=180.0,
     )
     linear = kinematics.linear_readings(machine, moves.tip, moves.angles_deg, np.zeros(3), 150.0)
-    return move_seconds(machine, moves, linear)
+    return moves, linear
 
 
 def upright(count):
@@ -63,11 +79,11 @@ def test_a_reversal_nearly_stops():
     assert seconds_of(fine, upright(len(fine)), 300.0).sum() == pytest.approx(alone, rel=0.03)
 
 
-def seconds_round(feed):
+def seconds_round(feed, machine=None, blocks=3600):
     turns, radius = 5, 5.0
-    angle = np.linspace(0, 2 * np.pi * turns, 3600)
+    angle = np.linspace(0, 2 * np.pi * turns, blocks)
     circle = np.column_stack((radius * np.cos(angle), radius * np.sin(angle), np.zeros(len(angle))))
-    return seconds_of(circle, upright(len(circle)), feed).sum(), 2 * np.pi * radius * turns
+    return seconds_of(circle, upright(len(circle)), feed, None, machine).sum(), 2 * np.pi * radius * turns
 
 
 def test_a_circle_is_driven_at_its_feed_where_its_curvature_allows():
@@ -112,3 +128,94 @@ def test_a_hundred_thousand_blocks_take_under_two_seconds():
     started = time.process_time()
     seconds_of(tip, upright(len(tip)), 50.0)
     assert time.process_time() - started < 4.0
+
+
+def s_curve(way, velocity, acceleration, jerk):
+    """Seconds from rest to rest on the textbook's seven phases, by the phases themselves: jerk up, steady, jerk down."""
+    low, high = 0.0, velocity
+    for _ in range(200):  # the velocity that is reached, by halving
+        peak = 0.5 * (low + high)
+        low, high = (peak, high) if 2 * sum(ramp_phases(peak, acceleration, jerk)[1]) <= way else (low, peak)
+    seconds, ways = ramp_phases(low, acceleration, jerk)
+    return 2 * sum(seconds) + (way - 2 * sum(ways)) / low
+
+
+def ramp_phases(velocity, acceleration, jerk):
+    """Seconds and ways of the three phases from rest to a velocity, each by integrating its own polynomial."""
+    reached = min(acceleration, np.sqrt(velocity * jerk))
+    first, second = reached / jerk, velocity / reached - reached / jerk
+    v1, v2 = reached * first / 2, velocity - reached * first / 2
+    ways = [jerk * first**3 / 6, v1 * second + reached * second**2 / 2]
+    ways.append(v2 * first + reached * first**2 / 2 - jerk * first**3 / 6)
+    return [first, second, first], ways
+
+
+@pytest.mark.parametrize("jerk", [1e3, 1e5, 1e9])
+@pytest.mark.parametrize("way", [0.01, 1.0, 40.0, 1000.0])
+def test_ways_from_rest_to_rest_have_their_seven_phases(way, jerk):
+    velocity, acceleration = np.array([500.0]), np.array([5000.0])
+    found = rest_to_rest_seconds(np.array([way]), velocity, acceleration, acceleration / jerk)
+    assert found == pytest.approx(s_curve(way, 500.0, 5000.0, jerk), rel=1e-9)
+
+
+def test_without_a_limit_of_the_jerk_the_profile_is_a_trapezoid():
+    one, never = np.ones(1), np.zeros(1)
+    assert rest_to_rest_seconds(9 * one, 2 * one, 4 * one, never) == pytest.approx(9 / 2 + 2 / 4)
+    assert rest_to_rest_seconds(0.25 * one, 2 * one, 4 * one, never) == pytest.approx(2 * np.sqrt(0.25 / 4))
+    assert ramp_seconds(2 * one, 4 * one, never) == pytest.approx(0.5)
+
+
+@pytest.mark.parametrize("blocks", [1, 7, 100])
+def test_a_straight_line_takes_its_s_curve_in_however_many_blocks(blocks):
+    for length, feed in ((60.0, 100.0), (60.0, 400.0), (0.5, 400.0)):
+        seconds = seconds_of(straight(length, blocks), upright(blocks + 1), feed, None, with_jerk())
+        assert seconds.sum() == pytest.approx(s_curve(length, feed, LINEAR, JERK), rel=1e-6)
+
+
+def test_a_circle_is_driven_no_faster_than_the_jerk_of_its_curvature_allows():
+    """v³ / R² <= j where one axis alone bends the way, 2^(1/2) j where two do: 108 to 121 mm/s at R = 5 mm."""
+    seconds, way = seconds_round(400.0, with_jerk())
+    least = np.cbrt(JERK * 5.0**2)
+    assert way / (2 ** (1 / 6) * least) < seconds < way / least * 1.02
+    assert seconds_round(400.0, with_jerk(), 7200)[0] == pytest.approx(seconds, rel=0.01)
+
+
+def test_the_harder_an_axis_may_jerk_the_sooner_it_is_done_down_to_the_time_without_a_limit():
+    angle = np.linspace(0, 40, 400)
+    tip = np.column_stack((angle, 8 * np.sin(angle) ** 3, np.abs(np.sin(2 * angle))))
+    seconds = [
+        seconds_of(tip, upright(len(tip)), 150.0, None, with_jerk(jerk)).sum()
+        for jerk in (1e4, 1e5, 1e6, 1e8, 1e12, np.inf)
+    ]
+    assert (np.diff(seconds) < 0).all()
+    assert seconds[-2] == pytest.approx(seconds[-1], rel=1e-3)
+
+
+def test_a_control_that_stops_at_blocks_takes_each_from_rest_to_rest():
+    blocks, length, feed = 30, 2.0, 50.0
+    line = straight(blocks * length, blocks), upright(blocks + 1), feed
+    stopping = seconds_of(*line, None, with_jerk(np.inf, stops_at_blocks=True))
+    assert stopping[1:] == pytest.approx(np.full(blocks, length / feed + feed / LINEAR))
+    jerky = seconds_of(*line, None, with_jerk(stops_at_blocks=True))
+    assert jerky[1:] == pytest.approx(np.full(blocks, s_curve(length, feed, LINEAR, JERK)))
+    machine, moves, linear = with_jerk(np.inf, stops_at_blocks=True), *moves_of(*line)
+    assert move_seconds(machine, moves, linear, blends=True).sum() == pytest.approx(
+        blocks * length / feed + feed / LINEAR
+    )
+
+
+def test_short_blocks_take_the_time_that_the_control_needs_for_each():
+    blocks, length, feed = 200, 0.05, 100.0  # 0.5 ms each at the feed
+    machine = with_jerk(np.inf, block_time_ms=4.0)
+    seconds = seconds_of(straight(blocks * length, blocks), upright(blocks + 1), feed, None, machine)
+    slow = length / 0.004
+    assert seconds[1:].sum() == pytest.approx(blocks * 0.004 + slow / LINEAR)
+    assert seconds[0] == 0.004
+
+
+@pytest.mark.parametrize("key", ["block_time_ms", "stops_at_blocks"])
+def test_wrong_values_of_the_control_are_named(key):
+    with pytest.raises(InputError, match=rf"\[control\] {key}"):
+        machines.MachineControl(**{key: -1.0})
+    with pytest.raises(InputError, match="max_jerk_mm_per_s3"):
+        with_jerk(0.0)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <random>
+#include <vector>
 
 #include "mpm/machine/kinematic_chain.h"
 
@@ -31,6 +32,16 @@ inline KinematicChain chain_of(const RotaryAxis& first, const RotaryAxis& second
 
 // 45 degree head with a rotary table.
 inline KinematicChain inclined_head() { return chain_of(table('C', Vec3::UnitZ()), head('B', kInclined)); }
+
+// Head and table, two tables, two heads, a level first axis, and one where nothing is square.
+inline std::vector<KinematicChain> chains() {
+  const Vec3 crooked = Vec3(0.01, -0.02, 1).normalized(), tilted = Vec3(0.02, 1, 0.98).normalized();
+  return {chain_of(table('C', Vec3::UnitZ()), head('B', kInclined, {0, 20, 150})),
+          chain_of(table('C', Vec3::UnitZ()), table('A', Vec3::UnitX(), {0, 10, 20})),
+          chain_of(head('C', Vec3::UnitZ(), {5, 6, 170}), head('B', Vec3::UnitY(), {0, 0, 150})),
+          chain_of(table('A', Vec3::UnitX()), table('B', Vec3::UnitY(), {3, 0, -60})),
+          chain_of(table('C', crooked, {3, -2, 5}), head('B', tilted, {1, 2, 149}))};
+}
 
 inline Vec3 random_direction(std::mt19937& random) {
   std::normal_distribution<double> normal;

@@ -4,6 +4,7 @@
 
 #include "machine/chains.h"
 #include "mpm/machine/direction.h"
+#include "mpm/machine/orientation.h"
 #include "mpm/machine/refine.h"
 
 namespace mpm {
@@ -98,24 +99,77 @@ TEST(Refine, LargestStepIsKept) {
               radians(5.0001));
 }
 
-TEST(Refine, PassingNearThePoleKeepsTheTolerance) {
-  const Vec3 from = Vec3(-0.1, 0.001, 1).normalized(), to = Vec3(0.1, 0.001, 1).normalized();
-  const RefinedPath refined = refine(inclined_head(), two_poses(from, to), {{}, 1e-4});
-  EXPECT_LE(dense_deviation(inclined_head(), refined), 1e-4);
+constexpr double kCone = 7e-6, kTolerance = 2e-4, kStep = 0.17;  // as the shipped machines have them, radians
+
+// A cut whose axis passes the pole of the chain (its first axis) at the angle `distance`.
+RefinedPath past_the_pole(const KinematicChain& chain, double distance, double cone = kCone) {
+  const Vec3 pole = chain.rotary[0].rotation_vector, along = pole.unitOrthogonal(),
+             across = pole.cross(along);
+  const auto pose = [&](double s) -> Vec3 {
+    return (std::cos(distance) * (std::cos(s) * pole + std::sin(s) * along) + std::sin(distance) * across)
+        .normalized();
+  };
+  RefineOptions options{{}, kTolerance};
+  options.joints.pole_cone = cone;
+  options.max_rotary_step = kStep;
+  return refine(chain, two_poses(pose(-0.1), pose(0.13)), options);
 }
 
-// In the pole cone the head does not go where the poses say: no split helps, and it must be told.
-TEST(Refine, WhatThePoleConeTakesCounts) {
-  PosePath path = two_poses(direction(5e-5, 0.0), direction(5e-5, 1.5));
-  path.tip.push_back({20, 0, 0}), path.axis.push_back(direction(0.3, 1.0)), path.cutting.push_back(1);
-  const JointPathOptions cone{{}, 1e-4};
-  const RefinedPath wide = refine(inclined_head(), path, {cone, 1e-3});
-  EXPECT_LE(dense_deviation(inclined_head(), wide), 1e-3);
-  EXPECT_EQ(std::count(wide.keeps.begin(), wide.keeps.end(), 0), 0);
-  const RefinedPath narrow = refine(inclined_head(), path, {cone, 2e-5});
-  EXPECT_GT(dense_deviation(inclined_head(), narrow), 2e-5);
-  EXPECT_GT(std::count(narrow.keeps.begin(), narrow.keeps.end(), 0), 0);
-  EXPECT_LT(narrow.poses.size(), 1000u);
+double largest_step(const JointPath& joints) {
+  double largest = 0;
+  for (std::size_t i = 1; i < joints.rotary.size(); ++i)
+    largest = std::max(largest, (joints.rotary[i] - joints.rotary[i - 1]).cwiseAbs().maxCoeff());
+  return largest;
+}
+
+void expect_good(const KinematicChain& chain, const RefinedPath& refined) {
+  EXPECT_LE(dense_deviation(chain, refined), kTolerance);
+  EXPECT_LE(largest_step(refined.joints), kStep * (1 + 1e-9));
+  EXPECT_EQ(std::count(refined.keeps.begin(), refined.keeps.end(), 1), std::ptrdiff_t(refined.keeps.size()));
+  for (JointStatus s : refined.joints.status) EXPECT_EQ(s, JointStatus::ok);
+}
+
+TEST(Refine, ThroughThePoleAndNearItTheToolKeepsItsWay) {
+  for (KinematicChain chain : chains())
+    for (bool may_flip : {false, true})
+      for (double distance : {0.0, 1e-9, 3e-6, 6.9e-6, 7.1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) {
+        SCOPED_TRACE(std::string(1, chain.rotary[0].name) + chain.rotary[1].name + ", " +
+                     std::to_string(1e6 * distance) + " µrad" + (may_flip ? ", may flip" : ""));
+        chain.allow_flip = may_flip;
+        // the last chain is out of square: it comes no nearer to its pole than 15 mrad
+        if (OrientationInverse(chain).solve(chain.rotary[0].rotation_vector).reachable)
+          expect_good(chain, past_the_pole(chain, distance));
+      }
+}
+
+TEST(Refine, ThroughThePoleTheFirstAxisTurnsOnTheSpotOrTheSecondGoesOnThroughZero) {
+  KinematicChain chain = chain_of(table('C', Vec3::UnitZ()), head('B', Vec3::UnitY()));
+  const RefinedPath through = past_the_pole(chain, 0);
+  EXPECT_LE(std::abs(through.joints.rotary.back()[0] - through.joints.rotary.front()[0]), 1e-9);
+  EXPECT_LT(through.joints.rotary.back()[1] * through.joints.rotary.front()[1], 0);
+
+  chain.rotary[1].min_limit = 0;
+  const RefinedPath turned = past_the_pole(chain, 0);
+  EXPECT_NEAR(std::abs(turned.joints.rotary.back()[0] - turned.joints.rotary.front()[0]), kPi, 1e-9);
+  double tilt = 0;  // where the first axis turns
+  for (std::size_t i = 1; i < turned.poses.size(); ++i)
+    if (turned.joints.rotary[i][0] != turned.joints.rotary[i - 1][0])
+      tilt = std::max({tilt, turned.joints.rotary[i][1], turned.joints.rotary[i - 1][1]});
+  EXPECT_GT(tilt, 0);
+  EXPECT_LE(tilt, 2 * kCone);
+}
+
+TEST(Refine, AMachineOutOfSquareStandsUprightWithinTheCone) {
+  const Vec3 first = Vec3(0, std::sin(5e-5), std::cos(5e-5));  // 50 µrad: 0.015 mm in 300 mm
+  const KinematicChain chain = chain_of(table('C', first), head('B', Vec3::UnitY()));
+  expect_good(chain, past_the_pole(chain, 0, 6e-5));
+  const JointPath small = past_the_pole(chain, 0, 1e-5).joints;
+  EXPECT_GT(std::count(small.status.begin(), small.status.end(), JointStatus::unreachable), 0);
+}
+
+TEST(Refine, ALargeConeIsCutDownToTheTolerance) {
+  const KinematicChain chain = inclined_head();
+  for (double cone : {1e-4, 1e-2}) expect_good(chain, past_the_pole(chain, 5e-5, cone));
 }
 
 TEST(Refine, TolerancesMustBePositive) {

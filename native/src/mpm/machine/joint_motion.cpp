@@ -67,24 +67,39 @@ Moving moving_axis(const KinematicChain& chain, const Vec2& from, const Vec2& to
 
 double off_chord(double second, double third_bound) { return second / 8 + third_bound / 48; }
 
+double angle_of_chord(double chord) { return chord < 2 ? 2 * std::asin(chord / 2) : kPi; }
+
+// The longer of the chords from where the tool stands to where it was meant to, at the two ends.
+double end_chord(const KinematicChain& chain, const Vec2& from, const Vec2& to, const AxisWay& meant) {
+  return std::max((tool_axis(chain, from) - meant.from).norm(), (tool_axis(chain, to) - meant.to).norm());
+}
+
 }  // namespace
 
-double axis_deviation_bound(const KinematicChain& chain, const Vec2& from, const Vec2& to) {
-  const Vec3 a = tool_axis(chain, from), b = tool_axis(chain, to);
-  const double angle = angle_between(a, b);
-  const Vec3 meant = great_circle(a, b, 0.5);  // a great circle g has g'' = -angle² g
+double axis_end_error(const KinematicChain& chain, const Vec2& from, const Vec2& to, const AxisWay& meant) {
+  return angle_of_chord(end_chord(chain, from, to, meant));
+}
+
+double axis_deviation_bound(const KinematicChain& chain,
+                            const Vec2& from,
+                            const Vec2& to,
+                            const AxisWay& meant) {
+  const double angle = angle_between(meant.from, meant.to);
+  const Vec3 middle = great_circle(meant.from, meant.to, 0.5);  // a great circle g has g'' = -angle² g
   const Moving axis = moving_axis(chain, from, to);
-  const double chord =
-      off_chord((axis.second + angle * angle * meant).norm(), axis.third_bound + angle * angle * angle);
-  return chord < 2 ? 2 * std::asin(chord / 2) : kPi;
+  const double between =
+      off_chord((axis.second + angle * angle * middle).norm(), axis.third_bound + angle * angle * angle);
+  return angle_of_chord(end_chord(chain, from, to, meant) + between);
 }
 
 MotionDeviation deviation_bound(const KinematicChain& chain,
                                 const PartSetup& setup,
                                 const Joints& from,
-                                const Joints& to) {
+                                const Joints& to,
+                                const AxisWay& meant) {
   const Moving tip = moving_tip(chain, setup, from, to);
-  return {off_chord(tip.second.norm(), tip.third_bound), axis_deviation_bound(chain, from.rotary, to.rotary)};
+  return {off_chord(tip.second.norm(), tip.third_bound),
+          axis_deviation_bound(chain, from.rotary, to.rotary, meant)};
 }
 
 }  // namespace mpm

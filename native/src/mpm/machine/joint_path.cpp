@@ -6,6 +6,7 @@
 #include <string>
 
 #include "mpm/base/error.h"
+#include "mpm/machine/direction.h"
 #include "mpm/machine/rotary_candidates.h"
 
 namespace mpm {
@@ -42,6 +43,7 @@ struct Node {
 struct Stage {
   std::size_t pose;
   bool may_reposition;  // a move between the stage before and this one does not cut
+  bool through_pole;    // poses between the two lie in the pole cone
   std::vector<Node> nodes;
 };
 
@@ -78,11 +80,11 @@ class JointSearch {
     for (std::size_t i = 0; i < path_.size(); ++i) {
       may_reposition = may_reposition || !path_.cutting[i];
       if (result_.at_pole[i]) continue;
-      stages_.push_back({i, may_reposition, nodes_of(i)});
+      stages_.push_back({i, may_reposition, i > 0 && result_.at_pole[i - 1] != 0, nodes_of(i)});
       may_reposition = false;
     }
     if (stages_.empty() && path_.size() > 0)
-      stages_.push_back({0, true, nodes_of(0)});  // the pole everywhere
+      stages_.push_back({0, true, false, nodes_of(0)});  // the pole everywhere
   }
 
   std::vector<Node> nodes_of(std::size_t pose) const {
@@ -121,8 +123,10 @@ class JointSearch {
     const Vec2 change = rotary_change(chain_, a.rotary, b.rotary);
     const bool flip = a.branch != b.branch;
     const bool rewind = change.cwiseAbs().maxCoeff() > kPi + kHalfTurnSlack;
-    const bool allowed = to.may_reposition ? !flip || chain_.allow_flip : !flip && !rewind;
-    return {allowed ? 0u : 1u, 0, rotary_seconds(chain_, change) + (flip ? kFlipSeconds : 0.0)};
+    const bool may_flip = chain_.allow_flip && (to.may_reposition || to.through_pole);
+    const bool allowed = (!flip || may_flip) && (!rewind || to.may_reposition);
+    const bool swings = flip && !to.through_pole;  // in the cone both solutions are next to each other
+    return {allowed ? 0u : 1u, 0, rotary_seconds(chain_, change) + (swings ? kFlipSeconds : 0.0)};
   }
 
   void extend_to(std::size_t k) {
@@ -171,7 +175,22 @@ class JointSearch {
     const Vec2 change = rotary_change(chain_, result_.rotary[before], result_.rotary[after]);
     for (std::size_t i = before + 1; i < after; ++i) {
       copy_to_pole(free_move <= after && i >= free_move ? after : before, i);
-      if (free_move > after) result_.rotary[i][0] += change[0] * double(i - before) / double(after - before);
+      if (free_move > after) {
+        result_.rotary[i][0] += change[0] * double(i - before) / double(after - before);
+        if (result_.branch[before] != result_.branch[after]) take_nearer_solution(i);
+      }
+    }
+  }
+
+  // Of the two readings of the second axis the one that points the tool nearer to where it should, the first
+  // axis standing as it does.
+  void take_nearer_solution(std::size_t pose) {
+    Vec2& rotary = result_.rotary[pose];
+    double least = kInfinity;
+    for (std::uint8_t branch = 0; branch < 2; ++branch) {
+      const Vec2 tried(rotary[0], nearest_turn(solutions_[pose].rotary[branch][1], rotary[1]));
+      const double off = angle_between(tool_axis(chain_, tried), path_.axis[pose]);
+      if (off < least) least = off, result_.branch[pose] = branch, rotary = tried;
     }
   }
 
@@ -198,7 +217,7 @@ class JointSearch {
   }
 
   JointStatus status_of(std::size_t i) const {
-    if (!solutions_[i].reachable) return JointStatus::unreachable;
+    if (!solutions_[i].reachable && !is_met_in_cone(i)) return JointStatus::unreachable;
     if (!within_limits(chain_, result_.rotary[i])) return JointStatus::rotary_limit;
     if (!linear_within(result_.linear[i])) return JointStatus::linear_limit;
     if (i > 0 && path_.cutting[i] && is_forced(i)) return JointStatus::forced_turn;
@@ -207,7 +226,14 @@ class JointSearch {
 
   bool is_forced(std::size_t i) const {
     const Vec2 change = result_.rotary[i] - result_.rotary[i - 1];
-    return result_.branch[i] != result_.branch[i - 1] || change.cwiseAbs().maxCoeff() > kPi + kHalfTurnSlack;
+    const bool in_cone = result_.at_pole[i] || result_.at_pole[i - 1];
+    return (result_.branch[i] != result_.branch[i - 1] && !in_cone) ||
+           change.cwiseAbs().maxCoeff() > kPi + kHalfTurnSlack;
+  }
+
+  bool is_met_in_cone(std::size_t i) const {
+    return result_.at_pole[i] &&
+           angle_between(tool_axis(chain_, result_.rotary[i]), path_.axis[i]) <= 2 * options_.pole_cone;
   }
 
   const KinematicChain& chain_;

@@ -20,7 +20,7 @@ struct PosePath {
 struct JointPathOptions {
   PartSetup setup;
   // Nearer to the pole than this (radians) the first axis follows its neighbours instead of the pose; the
-  // tool axis is then off by at most twice this angle.
+  // tool axis is then off by at most twice this angle, also where the chain comes no nearer to its pole.
   double pole_cone = 0.0;
 };
 
@@ -47,9 +47,8 @@ struct JointPath {
 //
 // Requires:   chain from checked(); equal lengths. A pose that is not finite is the caller's mistake.
 // Guarantees: one entry a pose; in cuts both unwound axes turn at most pi a move; solutions change only where
-// the move
-//             does not cut (else forced_turn); an axis with limits keeps whole turns that fit them where any
-//             do.
+//             the move does not cut or within the pole cone, where both meet (else forced_turn); an axis with
+//             limits keeps whole turns that fit them where any do.
 // Fails:      std::invalid_argument.
 // Source:     the shortest-path view of Makhanov and Munlin (2006); costs are ours.
 JointPath joint_path(const KinematicChain& chain, const PosePath& path, const JointPathOptions& options);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "mpm/base/error.h"
 #include "mpm/machine/direction.h"
@@ -36,15 +37,45 @@ RefinedPath split(const PosePath& path, const Fractions& fractions) {
   return result;
 }
 
+// The fraction of the way from a to b, between its ends, at which the axis comes nearest to the line of the
+// first rotary axis, when that is within the cone.
+std::optional<double> fraction_in_cone(const Vec3& a, const Vec3& b, const Vec3& line, double cone) {
+  const double angle = angle_between(a, b);
+  if (angle == 0) return std::nullopt;
+  const Vec3 normal = a.cross(b).normalized();
+  for (const Vec3& pole : {line, Vec3(-line)}) {
+    const Vec3 nearest = pole - normal.dot(pole) * normal;
+    const double s = std::atan2(normal.dot(a.cross(nearest)), a.dot(nearest)) / angle;
+    if (s > 0 && s < 1 && angle_between(great_circle(a, b, s), pole) <= cone) return s;
+  }
+  return std::nullopt;
+}
+
+// Cuts through the pole cone have a place in it from the start: there both rotary solutions meet.
+Fractions through_the_cone(const KinematicChain& chain, const PosePath& path, double cone) {
+  Fractions fractions(path.size(), {1.0});
+  for (std::size_t i = 1; i < path.size(); ++i)
+    if (path.cutting[i])
+      if (const auto s =
+              fraction_in_cone(path.axis[i - 1], path.axis[i], chain.rotary[0].rotation_vector, cone))
+        fractions[i] = {*s, 1.0};
+  return fractions;
+}
+
 Joints joints_at(const JointPath& path, std::size_t i) { return {path.linear[i], path.rotary[i]}; }
+
+AxisWay meant(const RefinedPath& refined, std::size_t end) {
+  return {refined.poses.axis[end - 1], refined.poses.axis[end]};
+}
 
 MotionDeviation deviation(const KinematicChain& chain,
                           const RefineOptions& options,
-                          const JointPath& joints,
+                          const RefinedPath& refined,
                           std::size_t end) {
+  const Joints from = joints_at(refined.joints, end - 1), to = joints_at(refined.joints, end);
   if (std::isfinite(options.tip_tolerance))
-    return deviation_bound(chain, options.joints.setup, joints_at(joints, end - 1), joints_at(joints, end));
-  return {0, axis_deviation_bound(chain, joints.rotary[end - 1], joints.rotary[end])};
+    return deviation_bound(chain, options.joints.setup, from, to, meant(refined, end));
+  return {0, axis_deviation_bound(chain, from.rotary, to.rotary, meant(refined, end))};
 }
 
 // How far the axis is off that of the pose: inside the pole cone the first rotary axis stands where it is.
@@ -67,6 +98,19 @@ double excess(const RefineOptions& options, const MotionDeviation& off, double o
   return std::max(off.tip / options.tip_tolerance, off.axis / axis);
 }
 
+// The same of what splitting lessens: not of how far the axis is off at the ends.
+double reducible_excess(const KinematicChain& chain,
+                        const RefineOptions& options,
+                        const RefinedPath& refined,
+                        std::size_t end) {
+  const JointPath& joints = refined.joints;
+  const MotionDeviation off = deviation(chain, options, refined, end);
+  const double stays = axis_end_error(chain, joints.rotary[end - 1], joints.rotary[end], meant(refined, end));
+  const double left = options.axis_tolerance - stays;
+  return std::max(off.tip / options.tip_tolerance,
+                  (off.axis - stays) / (left > 0 ? left : options.axis_tolerance));
+}
+
 // True when the move that ends there is to be split where it does not keep the tolerances.
 bool may_split(const RefineOptions& options, const RefinedPath& refined, std::size_t end) {
   if (refined.poses.cutting[end]) return true;
@@ -81,11 +125,9 @@ double pieces_needed(const KinematicChain& chain,
                      const RefineOptions& options,
                      const RefinedPath& refined,
                      std::size_t end) {
-  const JointPath& joints = refined.joints;
-  const MotionDeviation off = deviation(chain, options, joints, end);
-  const double step = (joints.rotary[end] - joints.rotary[end - 1]).cwiseAbs().maxCoeff();
-  const double needed = std::max(std::sqrt(excess(options, off, off_ends(chain, refined, end))),
-                                 step / options.max_rotary_step);
+  const Vec2 turn = refined.joints.rotary[end] - refined.joints.rotary[end - 1];
+  const double needed = std::max(std::sqrt(reducible_excess(chain, options, refined, end)),
+                                 turn.cwiseAbs().maxCoeff() / options.max_rotary_step);
   return std::min(std::ceil(needed), kMaxSplit);
 }
 
@@ -129,21 +171,26 @@ std::vector<std::uint8_t> kept(const KinematicChain& chain,
                                const RefineOptions& options,
                                const RefinedPath& refined) {
   std::vector<std::uint8_t> result(refined.poses.size(), 1);
-  for (std::size_t i = 1; i < result.size(); ++i) {
-    const MotionDeviation off = deviation(chain, options, refined.joints, i);
-    result[i] =
-        off.tip <= options.tip_tolerance && off.axis + off_ends(chain, refined, i) <= options.axis_tolerance;
-  }
+  for (std::size_t i = 1; i < result.size(); ++i)
+    result[i] = excess(options, deviation(chain, options, refined, i)) <= 1;
   return result;
+}
+
+// In the pole cone the axis is off by up to twice the cone: some of its tolerance must be left for the
+// motion.
+RefineOptions with_cone_in_tolerance(RefineOptions options) {
+  options.joints.pole_cone = std::min(options.joints.pole_cone, kConeShare * options.axis_tolerance);
+  return options;
 }
 
 }  // namespace
 
-RefinedPath refine(const KinematicChain& chain, const PosePath& path, const RefineOptions& options) {
+RefinedPath refine(const KinematicChain& chain, const PosePath& path, const RefineOptions& given) {
+  const RefineOptions options = with_cone_in_tolerance(given);
   require(options.axis_tolerance > 0, "axis_tolerance must be positive");
   require(options.tip_tolerance > 0, "tip_tolerance must be positive");
   require(options.max_rotary_step > 0, "max_rotary_step must be positive");
-  Fractions fractions(path.size(), {1.0});
+  Fractions fractions = through_the_cone(chain, path, options.joints.pole_cone);
   RefinedPath refined;
   for (int round = 0; round <= kMaxRounds; ++round) {
     refined = split(path, fractions);

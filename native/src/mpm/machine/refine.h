@@ -18,18 +18,21 @@ struct RefineOptions {
 struct RefinedPath {
   PosePath poses;                     // the given poses and those inserted between them
   std::vector<std::uint32_t> source;  // index of the given move that each move is part of
-  // 1: the move keeps axis_tolerance and tip_tolerance, by deviation_bound and what the pole cone takes
+  // 1: the move keeps axis_tolerance and tip_tolerance all along it, its ends included; by deviation_bound
   std::vector<std::uint8_t> keeps;
   JointPath joints;
 };
 
+// The pole cone is cut down to this share of axis_tolerance: a quarter of it is then left between the ends.
+inline constexpr double kConeShare = 0.375;
+
 // Splits the cutting moves, where they need it, until each piece keeps axis_tolerance, tip_tolerance and
-// max_rotary_step, all along it (deviation_bound, and what the axis is off the poses in the pole cone):
-// inserted tips lie on the straight line, inserted axes on the great circle. All joints are chosen anew for
-// the refined path. The given poses are all kept, bit for bit, in their order. No move gets more than
-// kMaxPieces pieces; one that needs more (it goes through the pole itself, where the first axis has to turn
-// in no distance) ends with the tolerance not kept, and so does a rapid in which the rotary solution changes
-// or an axis rewinds.
+// max_rotary_step, all along it (deviation_bound): inserted tips lie on the straight line, inserted axes on
+// the great circle. All joints are chosen anew for the refined path. The given poses are all kept, bit for
+// bit, in their order. A cut through the pole cone gets a place in it, where the first axis turns, or the
+// solution changes, while the tool hardly moves. No move gets more than kMaxPieces pieces; one that needs
+// more ends with the tolerance not kept, and so does a rapid in which the rotary solution changes or an axis
+// rewinds.
 inline constexpr std::size_t kMaxPieces = 4096;
 RefinedPath refine(const KinematicChain& chain, const PosePath& path, const RefineOptions& options);
 
