@@ -126,8 +126,9 @@ py::tuple deviations(const KinematicChain& chain,
   require_same_length(linear.size(), rotary_to.size(), "linear_mm and rotary_to_deg");
   std::vector<double> tip_mm, axis_deg;
   for (std::size_t i = 0; i < linear.size(); ++i) {
+    const AxisWay own{tool_axis(chain, rotary[i]), tool_axis(chain, rotary_to[i])};
     const MotionDeviation off = deviation_bound(
-        chain, {part_origin_mm, tool_length_mm}, {linear[i], rotary[i]}, {linear_to[i], rotary_to[i]});
+        chain, {part_origin_mm, tool_length_mm}, {linear[i], rotary[i]}, {linear_to[i], rotary_to[i]}, own);
     tip_mm.push_back(off.tip);
     axis_deg.push_back(degrees(off.axis));
   }

@@ -167,6 +167,16 @@ TEST(Refine, AMachineOutOfSquareStandsUprightWithinTheCone) {
   EXPECT_GT(std::count(small.status.begin(), small.status.end(), JointStatus::unreachable), 0);
 }
 
+TEST(Refine, WhatThePoleConeTakesCounts) {
+  PosePath path = two_poses(direction(5e-5, 0.0), direction(5e-5, 1.5));
+  path.tip.push_back({20, 0, 0}), path.axis.push_back(direction(0.3, 1.0)), path.cutting.push_back(1);
+  for (double tolerance : {1e-3, 2e-5}) {
+    const RefinedPath refined = refine(inclined_head(), path, {{{}, 1e-4}, tolerance});
+    EXPECT_LE(dense_deviation(inclined_head(), refined), tolerance);
+    EXPECT_EQ(std::count(refined.keeps.begin(), refined.keeps.end(), 0), 0);
+  }
+}
+
 TEST(Refine, ALargeConeIsCutDownToTheTolerance) {
   const KinematicChain chain = inclined_head();
   for (double cone : {1e-4, 1e-2}) expect_good(chain, past_the_pole(chain, 5e-5, cone));

@@ -17,8 +17,6 @@ constexpr int kMaxRounds = 20;
 constexpr double kMaxSplit = 8;
 // A turn of more than half a turn by more than this (radians) is a rewind; less is rounding.
 constexpr double kHalfTurnSlack = 1e-9;
-// Of the axis tolerance, what the pole may take away before a move that passes it is not split any finer.
-constexpr double kPoleShare = 0.5;
 
 // For each move the fractions, rising to 1, at which its pieces end.
 using Fractions = std::vector<std::vector<double>>;
@@ -78,24 +76,9 @@ MotionDeviation deviation(const KinematicChain& chain,
   return {0, axis_deviation_bound(chain, from.rotary, to.rotary, meant(refined, end))};
 }
 
-// How far the axis is off that of the pose: inside the pole cone the first rotary axis stands where it is.
-double off_pose(const KinematicChain& chain, const RefinedPath& refined, std::size_t i) {
-  if (!refined.joints.at_pole[i]) return 0;
-  return angle_between(tool_axis(chain, refined.joints.rotary[i]), refined.poses.axis[i]);
-}
-
-// By how much (radians) a move's ends put the axis off the meant great circle, at any time. Two great circles
-// between ends that differ by d differ by at most d / cos(angle / 2) on their way.
-double off_ends(const KinematicChain& chain, const RefinedPath& refined, std::size_t end) {
-  const double most = std::max(off_pose(chain, refined, end - 1), off_pose(chain, refined, end));
-  if (most == 0) return 0;
-  return most / std::cos(angle_between(refined.poses.axis[end - 1], refined.poses.axis[end]) / 2);
-}
-
-// The deviation as a multiple of what is allowed beside what the ends take away.
-double excess(const RefineOptions& options, const MotionDeviation& off, double off_ends) {
-  const double axis = std::max(options.axis_tolerance - off_ends, kPoleShare * options.axis_tolerance);
-  return std::max(off.tip / options.tip_tolerance, off.axis / axis);
+// The deviation as a multiple of what is allowed.
+double excess(const RefineOptions& options, const MotionDeviation& off) {
+  return std::max(off.tip / options.tip_tolerance, off.axis / options.axis_tolerance);
 }
 
 // The same of what splitting lessens: not of how far the axis is off at the ends.
