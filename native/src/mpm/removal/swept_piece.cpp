@@ -69,21 +69,15 @@ Reading read_shape(const Shape& shape, const Vec3& point, const Vec3& direction,
   return {d.distance, turn - gradient.dot(pose.center_rate), gradient.dot(direction), r};
 }
 
-// On every line from a point near `point` about along `way`, away from the tool's tip, does the distance from
-// the ring's circle grow all the way at all times of the stroke? With |z| growing by c and |r - Ro| falling
-// by s at most for each mm the sum of their squares grows from the start when c |z| >= s |r - Ro|, and then
-// ever after.
-bool recedes(const RingShape& ring,
-             const Stroke& stroke,
-             const Vec3& point,
-             const Vec3& way,
-             double radius,
-             double spread) {
+// Is every point of the ray from `point` along `way`, away from the tool's tip, farther from the ring's
+// circle than `point` at all times of the stroke? With |z| growing by c at least and |r - Ro| falling by s at
+// most for each mm the sum of their squares stays above that at the start when c |z| >= s |r - Ro| there.
+bool recedes(const RingShape& ring, const Stroke& stroke, const Vec3& point, const Vec3& way) {
   for (const StrokePose& pose : stroke.ends) {
     const Vec3 u = point - pose.center;
-    const double z = u.dot(pose.axis), c = -way.dot(pose.axis) - spread - stroke.angle;
+    const double z = u.dot(pose.axis), c = -way.dot(pose.axis) - stroke.angle;
     if (z >= 0 || c <= 0) return false;
-    const double s = std::sqrt(1 - c * c), margin = radius + 0.5 * stroke.motion(u.norm());
+    const double s = std::sqrt(1 - c * c), margin = 0.5 * stroke.motion(u.norm());
     const double rho = std::abs((u - z * pose.axis).norm() - ring.major);
     if (c * (-z - margin) < s * (rho + margin)) return false;
   }
@@ -248,7 +242,7 @@ class Sweep {
   // Is the point at t outside, and every point farther that way?
   bool receding(double t, double sense) const {
     if constexpr (std::is_same_v<Shape, RingShape>)
-      return recedes(shape_, stroke_, ray_.at(t), sense * ray_.direction, 0, 0);
+      return recedes(shape_, stroke_, ray_.at(t), sense * ray_.direction);
     else
       return false;
   }

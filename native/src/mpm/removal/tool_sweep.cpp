@@ -144,7 +144,7 @@ Spans ToolSweep::piece_spans(std::uint32_t stroke,
                              std::size_t piece,
                              const Ray& ray,
                              const Span& span) const {
-  const Span part = clipped(ray, span, boxes_[stroke * (cones_.size() + 1) + piece]);
+  const Span part = clipped(ray, span, boxes_[stroke * bottoms_.size() + piece]);
   if (part.from > part.to) return {};
   const Stroke& s = strokes_[stroke];
   return piece == 0 ? swept_spans(ring_, s, ray, part.from, part.to)

@@ -77,7 +77,7 @@ class ToolSweep {
   std::vector<Stroke> strokes_;
   std::vector<RingStroke> ring_strokes_;
   std::vector<double> sagitta_;  // of each stroke, over the whole tool
-  std::vector<Box3> boxes_;      // pieces() a stroke
+  std::vector<Box3> boxes_;      // one a piece of each stroke
   std::vector<Box3> low_boxes_;  // of each stroke's low pieces
   BoxTree low_tree_, high_tree_;
   std::uint32_t low_pieces_ = 0;
