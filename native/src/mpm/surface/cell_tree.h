@@ -21,7 +21,7 @@ class CellTree {
     std::uint32_t face = 0;
     // Of a leaf only.
     const BezierPatch* patch = nullptr;
-    double third = 0;        // third_derivative_bound over the leaf
+    double third = 0;  // third_derivative_bound over the leaf
     QuadraticCell cell;
   };
 
