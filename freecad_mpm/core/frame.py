@@ -28,10 +28,14 @@ class Frame:
         return self.direction_to_part(points) + self.origin
 
     def direction_to_setup(self, directions: Array) -> Array:
-        return directions @ self.axes
+        return self._turned(directions, self.axes)
 
     def direction_to_part(self, directions: Array) -> Array:
-        return directions @ self.axes.T
+        return self._turned(directions, self.axes.T)
+
+    def _turned(self, directions: Array, matrix: Array) -> Array:
+        # Most set-ups are not turned, and millions of products of three by three take their time.
+        return directions.copy() if (matrix == np.eye(3)).all() else directions @ matrix
 
 
 def frame_of(setup: Setup) -> Frame:
