@@ -38,7 +38,7 @@ struct RingCut {
   int undecided;  // the kernel does not know; the height is as before
 };
 
-// The source of the steps is docs/removal.md, "Four rays at once". Both kernels give the same bits.
+// The source of the steps is docs/removal.md, "Four rays at once". All kernels give the same bits.
 struct RingCutter {
   // A bit a bundle: the ring keeps clear, during the whole stroke, of the upper ends of all its rays, and all
   // their lower points lie farther from it.
@@ -49,6 +49,9 @@ struct RingCutter {
 extern const RingCutter kBaselineRingCutter;
 #ifdef MPM_AVX2
 extern const RingCutter kAvx2RingCutter;
+#endif
+#ifdef MPM_AVX512
+extern const RingCutter kAvx512RingCutter;
 #endif
 
 // The widest that this processor has.

@@ -5,11 +5,16 @@ namespace mpm {
 const RingCutter kBaselineRingCutter{clear, cut};
 
 const RingCutter& ring_cutter() {
-#ifdef MPM_AVX2
-  static const bool wide = __builtin_cpu_supports("avx2");
-  if (wide) return kAvx2RingCutter;
+  static const RingCutter& widest = []() -> const RingCutter& {
+#ifdef MPM_AVX512
+    if (__builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl")) return kAvx512RingCutter;
 #endif
-  return kBaselineRingCutter;
+#ifdef MPM_AVX2
+    if (__builtin_cpu_supports("avx2")) return kAvx2RingCutter;
+#endif
+    return kBaselineRingCutter;
+  }();
+  return widest;
 }
 
 }  // namespace mpm
