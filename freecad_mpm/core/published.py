@@ -43,7 +43,7 @@ CONTINUATION = 0.15
 UPRIGHT_DEG = 1e-6
 # Distance of the deviation's points from which the section starts.
 RESOLUTION_MM = 1.0
-SPACING_MM = 0.04
+SPACING_MM = 0.01
 
 
 @dataclass(frozen=True)
