@@ -8,7 +8,7 @@ import json
 import os
 import time
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
@@ -28,6 +28,9 @@ from .stages import Progress, Stages
 
 # Thesis table 1.
 DEFAULT_SURFACES = ("convex", "concave", "saddle")
+# Seconds until which a run is repeated, so often at most: the least time counts, the rest is other programs'.
+REPEATED_S = 0.5
+MOST_REPEATS = 10
 
 # Key of a row -> heading of its column.
 COLUMNS = {
@@ -108,13 +111,26 @@ def measure(run: Run, on_progress: Progress | None = None) -> Row:
     }
 
 
+def _least_time(place: Callable[[], Row]) -> tuple[Row, float, float]:
+    """The result, and the least seconds by the clock and of the processor; a short run is repeated."""
+    placed: Row = {}
+    clock_s: list[float] = []
+    cpu_s: list[float] = []
+    while not clock_s or (len(clock_s) < MOST_REPEATS and sum(clock_s) < REPEATED_S):
+        start_s, start_cpu_s = time.perf_counter(), time.process_time()
+        placed = place()
+        clock_s.append(time.perf_counter() - start_s)
+        cpu_s.append(time.process_time() - start_cpu_s)
+    return placed, min(clock_s), min(cpu_s)
+
+
 def timed(run: Run, scene: Scene, stages: Stages) -> tuple[Row, Positions]:
     """Place the run's positions: what they took, and how they ended. Neither index nor judging is counted."""
     footprint = planning.lay_out(run.job, scene, stages)
     positioner = planning.make_positioner(run.job, scene, stages)
-    cpu_s = time.process_time()
-    placed = stages.run_native("positions", positioner.place, footprint.points)
-    cpu_s = time.process_time() - cpu_s
+    placed, wall_s, cpu_s = _least_time(
+        lambda: stages.run_native("positions", positioner.place, footprint.points)
+    )
     counters = placed.pop("counters")
     positions = planning.as_positions(footprint, placed)
     count = len(positions)
@@ -124,9 +140,9 @@ def timed(run: Run, scene: Scene, stages: Stages) -> tuple[Row, Positions]:
         "surface": run.surface,
         "threads": run.threads,
         "positions": count,
-        "microseconds_per_position": MICROSECONDS * stages.seconds["positions"] / count,
+        "microseconds_per_position": MICROSECONDS * wall_s / count,
         "cpu_microseconds_per_position": MICROSECONDS * cpu_s / count,
-        "positions_per_second": count / stages.seconds["positions"],
+        "positions_per_second": count / wall_s,
         "index_s": stages.seconds["index"],
         **{f"{name}_per_position": value / count for name, value in counters.items()},
         "two_contacts": statuses.get("two_contacts", 0) / count,
