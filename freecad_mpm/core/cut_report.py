@@ -27,7 +27,8 @@ def facts(
         "stock_box_setup_mm": [cut.stock.lo.tolist(), cut.stock.hi.tolist()],
         "volume_left_mm3": None if cut.dexels is None else cut.dexels.volume_mm3,
         "points": len(values),
-        "worst_gouge": _extreme(cut, worst.gouge, program_block),
+        "worst_gouge": _extreme(cut, worst.gouge, program_block)
+        | {"depth_mm": float(cut.depth_mm(worst.gouge.point[None])[0])},
         "largest_remainder": _extreme(cut, worst.remainder, program_block),
         "check_faces": {
             "points": cut.overcut.looked_at,
@@ -104,7 +105,7 @@ def worst_lines(found: dict[str, Any]) -> list[str]:
     """The worst places, for people."""
     return [
         f"Cut into stock, {found['points']} points of the faces, every {found['resolution_mm']:g} mm",
-        f"Worst gouge: {_where(found['worst_gouge'])}",
+        f"Worst gouge: {_where(found['worst_gouge'])}; {found['worst_gouge']['depth_mm']:.4f} mm inside the tool",
         f"Largest remainder: {_where(found['largest_remainder'])}",
         _check_line(found["check_faces"]),
     ]

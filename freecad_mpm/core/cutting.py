@@ -116,10 +116,13 @@ class Cut:
         values = self.deviation.deviation_mm
         rows = np.flatnonzero(values < -depth_mm)  # nowhere else can the tool be so deep
         for some in np.array_split(rows[np.argsort(values[rows])], max(1, len(rows) // POINTS_AT_A_TIME)):
-            points = self.scene.frame.to_setup(self.deviation.points[some])
-            if (depths(self.scene, self.path, points, Stages())[0] > depth_mm).any():
+            if (self.depth_mm(self.deviation.points[some]) > depth_mm).any():
                 return False
         return True
+
+    def depth_mm(self, points: Floats) -> Floats:
+        """How deep (N,) any points (N, 3) (part frame) lay inside the tool; 0: never in it."""
+        return depths(self.scene, self.path, self.scene.frame.to_setup(points), Stages())[0]
 
     def heights(self, points: Floats, directions: Floats) -> tuple[Floats, Integers]:
         """Deviation (N,) along `directions` (N, 3) at any `points` (N, 3) of the true surface (part frame), and the

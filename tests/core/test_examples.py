@@ -44,7 +44,9 @@ def test_a_shipped_example_is_good_as_it_stands(name: str) -> None:
     told = report.with_cut(plan, cut)
     assert told["verdict"]["good"], told["verdict"]["line"]
     # What the certificate promised, seen by someone else.
-    assert -plan.job.tolerance.chord_mm <= told["cut"]["worst_gouge"]["deviation_mm"] < 0.001
+    worst = told["cut"]["worst_gouge"]
+    assert -plan.job.tolerance.chord_mm <= worst["deviation_mm"] < 0.001
+    assert worst["depth_mm"] == pytest.approx(max(-worst["deviation_mm"], 0.0), abs=1e-3)
 
 
 def computed(foreign: Job) -> planning.Plan:
