@@ -14,7 +14,7 @@ from .cutting import Cut
 from .job import Job
 from .machines import Machine
 from .motion_time import slowed_cuts
-from .plan import UNUSABLE, Integers, Path, Plan, Positions
+from .plan import Integers, Path, Plan, Positions
 from .rewind import rewinds
 from .shop import Made
 from .statement import statement
@@ -66,9 +66,9 @@ def warnings(job: Job, machine: Machine, positions: Positions, path: Path, guara
         found.append(
             f"machine {machine.name} is unconfirmed: compare its file with the machine before cutting"
         )
-    left_out = np.count_nonzero(~positions.usable)
+    left_out = Counter(positions.status[~positions.usable].tolist())
     if left_out:
-        found.append(f"{left_out} positions ({', '.join(UNUSABLE)}) are left out of the path")
+        found.append(f"{left_out.total()} positions ({', '.join(left_out)}) are left out of the path")
     turned = rewinds(path)
     if len(turned):
         places = _listed(turned)

@@ -14,10 +14,21 @@ from ..core.errors import InputError
 from ..core.resources import FORMS
 
 
-def only_close() -> int:
-    """The standard buttons of a panel that only shows something."""
-    close = QtGui.QDialogButtonBox.Close
-    return int(getattr(close, "value", close))  # a number or an enumeration, by the Qt binding
+class ClosingPanel:
+    """What FreeCAD asks of a task panel that only shows something: one button, and what it does. Names are FreeCAD's."""
+
+    def close(self) -> None:
+        """Take back all that the panel has put into the view and the document."""
+        raise NotImplementedError
+
+    def getStandardButtons(self) -> int:
+        close = QtGui.QDialogButtonBox.Close
+        return int(getattr(close, "value", close))  # a number or an enumeration, by the Qt binding
+
+    def reject(self) -> bool:
+        self.close()
+        FreeCADGui.Control.closeDialog()
+        return True
 
 
 def check_none_is_open() -> None:

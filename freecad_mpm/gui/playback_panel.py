@@ -24,7 +24,7 @@ DEFAULT_SPEED = 10
 PART_FIXED, MACHINE_VIEW = "The part stands still", "The machine stands still"
 
 
-class PlaybackPanel:
+class PlaybackPanel(panels.ClosingPanel):
     """Shown by FreeCADGui.Control.showDialog; `close` takes everything out of the view again."""
 
     def __init__(self, op: Any) -> None:
@@ -37,16 +37,6 @@ class PlaybackPanel:
         self._connect()
         self._load()
         self._watch = panels.Watch(op, self.reload, self.reject)
-
-    # ------------------------------------------------------------------ what FreeCAD calls
-
-    def getStandardButtons(self) -> int:
-        return panels.only_close()
-
-    def reject(self) -> bool:
-        self.close()
-        FreeCADGui.Control.closeDialog()
-        return True
 
     # ------------------------------------------------------------------ moving
 

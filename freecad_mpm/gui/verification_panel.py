@@ -24,7 +24,7 @@ PICK_REACH = 1.5
 HINT = "Click on a coloured spot in the 3D view."
 
 
-class VerificationPanel:
+class VerificationPanel(panels.ClosingPanel):
     """Shown by FreeCADGui.Control.showDialog; `close` takes everything out of the view again."""
 
     def __init__(self, result: Any) -> None:
@@ -45,16 +45,6 @@ class VerificationPanel:
         self.form.check.clicked.connect(lambda: self.show_spot(result.WorstCheckGougePoint))
         self.form.play.clicked.connect(self.play_from_here)
         self.form.again.clicked.connect(self.verify_again)
-
-    # ------------------------------------------------------------------ what FreeCAD calls
-
-    def getStandardButtons(self) -> int:
-        return panels.only_close()
-
-    def reject(self) -> bool:
-        self.close()
-        FreeCADGui.Control.closeDialog()
-        return True
 
     # ------------------------------------------------------------------ spots
 

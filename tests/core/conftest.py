@@ -6,16 +6,13 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from part_samples import TOOL
 
 JOB = """
 [part]
 file = "{part}"
 
-[tool]
-major_radius_mm = 6.7
-minor_radius_mm = 6.0
-recess_mm = 6.0
-
+{tool}
 [footprint]
 side_step_mm = 50.0
 forward_step_mm = 25.0
@@ -33,7 +30,7 @@ chord_mm = 2.0
 @pytest.fixture
 def job_text(thesis_part: Callable[[str], Path]) -> str:
     """A job file's text that is good as it stands: 4 passes of 7 positions."""
-    return JOB.format(part=thesis_part("saddle"))
+    return JOB.format(tool=TOOL, part=thesis_part("saddle"))
 
 
 @pytest.fixture

@@ -11,6 +11,12 @@ ROOT = Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / "resources" / "examples"
 DATA = ROOT / "tests" / "data"
 SHARED_DATA = Path(os.environ.get("MPM_SHARED_DATA", ROOT.parent / "shared" / "data"))
+# The thesis' cutter without shank and holder, for a job's text.
+TOOL = """[tool]
+major_radius_mm = 6.7
+minor_radius_mm = 6.0
+recess_mm = 6.0
+"""
 
 
 def shared(name: str) -> Path:

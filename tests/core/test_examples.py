@@ -47,6 +47,9 @@ def test_a_shipped_example_is_good_as_it_stands(name: str) -> None:
     worst = told["cut"]["worst_gouge"]
     assert -plan.job.tolerance.chord_mm <= worst["deviation_mm"] < 0.001
     assert worst["depth_mm"] == pytest.approx(max(-worst["deviation_mm"], 0.0), abs=1e-3)
+    left_out = ", ".join(dict.fromkeys(plan.status[~plan.usable]))
+    told_of = [warning for warning in told["warnings"] if "left out of the path" in warning]
+    assert [f"({left_out})" in warning for warning in told_of] == [True] * bool(left_out)
 
 
 def computed(foreign: Job) -> planning.Plan:

@@ -4,6 +4,7 @@ does, looked at densely, on every shipped machine."""
 import numpy as np
 import pytest
 from machine_samples import AXIS_TOLERANCE_DEG, program_of, with_kinematics, with_rotary
+from part_samples import TOOL
 
 from freecad_mpm.core import dialects, job, kinematics, machines, planning, posts
 from freecad_mpm.core.control import Control
@@ -126,11 +127,7 @@ def test_the_checks_see_an_axis_that_leaves_its_way_at_the_pole():
 PART_JOB = """
 [part]
 file = "{part}"
-[tool]
-major_radius_mm = 6.7
-minor_radius_mm = 6.0
-recess_mm = 6.0
-[footprint]
+{tool}[footprint]
 direction_deg = 90.0
 side_step_mm = 75.0
 forward_step_mm = 2.0
@@ -145,7 +142,7 @@ name = "linuxcnc"
 def test_on_a_part_the_axis_keeps_what_the_certificate_allows(machine, thesis_part, tmp_path):
     """The convex face's middle pass goes over its top, with the tool through the pole."""
     path = tmp_path / "job.toml"
-    path.write_text(PART_JOB.format(part=thesis_part("convex"), machine=machine))
+    path.write_text(PART_JOB.format(tool=TOOL, part=thesis_part("convex"), machine=machine))
     plan = planning.plan(job.load(path))
     assert plan.report["verdict"]["good"], plan.report["verdict"]["line"]
     assert plan.report["program"]["nearest_to_pole_deg"] < 1e-6

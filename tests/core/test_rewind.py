@@ -5,6 +5,7 @@ import re
 
 import numpy as np
 import pytest
+from part_samples import TOOL
 
 from freecad_mpm.core import cli, job, planning
 from freecad_mpm.core.resources import MACHINES
@@ -13,11 +14,7 @@ from freecad_mpm.core.rewind import rewinds
 JOB = """
 [part]
 file = "{part}"
-[tool]
-major_radius_mm = 6.7
-minor_radius_mm = 6.0
-recess_mm = 6.0
-[footprint]
+{tool}[footprint]
 direction_deg = 20.0
 side_step_mm = 30.0
 forward_step_mm = 3.0
@@ -43,7 +40,7 @@ def limited(tmp_path):
 
 def job_file(machine, thesis_part, tmp_path, post="dmu80p", tcp="true"):
     path = tmp_path / "job.toml"
-    path.write_text(JOB.format(part=thesis_part("convex"), machine=machine, post=post, tcp=tcp))
+    path.write_text(JOB.format(tool=TOOL, part=thesis_part("convex"), machine=machine, post=post, tcp=tcp))
     return path
 
 
