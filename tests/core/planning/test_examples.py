@@ -23,7 +23,7 @@ from freecad_mpm.core.job import (
     ToolSpec,
     tool,
 )
-from freecad_mpm.core.report import facts
+from freecad_mpm.core.report import with_cut
 
 THESIS = ("convex", "concave", "saddle")
 SHIPPED = sorted(path.stem for path in EXAMPLES.glob("*.toml"))
@@ -45,31 +45,31 @@ def test_a_thesis_surface_gives_760_positions_a_program_and_a_picture(name: str)
     assert files["cl.csv"].count(",cut,") == 760
     assert files["path.png"].startswith(b"\x89PNG")
     assert files["machined.stl"]
-    assert plan.report["program"]["findings"] == []
+    assert plan.report.program.report.findings == []
 
 
 @pytest.mark.parametrize("name", SHIPPED)
 def test_a_shipped_example_is_good_as_it_stands(name: str) -> None:
     plan = planning.plan(job.load(EXAMPLES / f"{name}.toml"))
     cut = removal.cut(plan.scene, plan.path, 1.0, with_stock=False)
-    told = facts.with_cut(plan, cut)
-    assert told["verdict"]["good"], told["verdict"]["line"]
+    told = with_cut(plan.report, plan.job.tolerance, cut)
+    assert told.verdict.good, told.verdict.line
     # What the certificate promised, seen by someone else.
-    worst = told["cut"]["worst_gouge"]
-    assert -plan.job.tolerance.chord_mm <= worst["deviation_mm"] < 0.001
-    assert worst["depth_mm"] == pytest.approx(max(-worst["deviation_mm"], 0.0), abs=1e-3)
+    worst = told.cut.worst_gouge
+    assert -plan.job.tolerance.chord_mm <= worst.deviation_mm < 0.001
+    assert worst.depth_mm == pytest.approx(max(-worst.deviation_mm, 0.0), abs=1e-3)
     left_out = ", ".join(dict.fromkeys(plan.status[~plan.usable]))
-    told_of = [warning for warning in told["warnings"] if "left out of the path" in warning]
+    told_of = [warning for warning in told.warnings if "left out of the path" in warning]
     assert [f"({left_out})" in warning for warning in told_of] == [True] * bool(left_out)
 
 
 def computed(foreign: Job) -> planning.Plan:
     plan = planning.plan(foreign)
     assert plan.usable.mean() > 0.9
-    assert plan.report["positions"]["gouging"] == 0
+    assert plan.report.positions.gouging == 0
     assert not plan.path.blocked.any()
-    assert plan.report["program"]["tip_error_mm"] < 0.001
-    assert plan.report["program"]["axis_error_deg"] < 0.001
+    assert plan.report.program.report.tip_error_mm < 0.001
+    assert plan.report.program.report.axis_error_deg < 0.001
     return plan
 
 

@@ -19,7 +19,7 @@ from freecad_mpm.core.part import FaceArrays, prepare
 from freecad_mpm.core.path import cl_file, judge
 from freecad_mpm.core.path.cuts import middle_angle_deg
 from freecad_mpm.core.planning import Plan
-from freecad_mpm.core.positioning import spacing, spins, strip
+from freecad_mpm.core.positioning import spins, strip
 from freecad_mpm.core.report import text as report
 
 WANTED_MM = 8.0
@@ -51,27 +51,27 @@ def test_every_position_of_the_footprint_has_the_spacing(plan: Plan) -> None:
 
 
 def test_the_plan_is_proven_as_for_any_spin(plan: Plan, tmp_path: Path) -> None:
-    assert plan.report["verdict"]["good"]
-    assert plan.report["path"]["moves_not_cut"] == 0
-    assert plan.report["statement"].endswith("proven")
-    (tmp_path / "cl.csv").write_text(cl_file.to_csv(plan, plan.path))
+    assert plan.report.verdict.good
+    assert plan.report.path.moves_not_cut == 0
+    assert plan.report.statement.endswith("proven")
+    (tmp_path / "cl.csv").write_text(cl_file.to_csv(plan.positions, plan.path))
     assert judge.verify(plan.job, cl_file.read_csv(tmp_path / "cl.csv"), Stages()).good
 
 
 def test_the_report_says_how_well_it_was_kept(plan: Plan) -> None:
     count = np.count_nonzero(~plan.inserted)
     said = f"Contacts 8 mm apart from contact to contact: within 1% at {count} of {count} positions of the footprint"
-    text = report.text(plan.report)
+    text = report(plan.report)
     assert said in text and "spin for contacts 8 mm apart" in text
 
 
 def test_what_cannot_be_reached_is_told_with_the_nearest(saddle_job: Job) -> None:
     wide = replace(saddle_job, method=MethodSpec(contact_spacing_mm=30.0))
-    found = planning.plan(wide).report["contact_spacing"]
-    assert found["kept"] == 0 and len(found["unreachable"]) == found["footprint"]
-    nearest = [one["nearest_mm"] for one in found["unreachable"]]
+    found = planning.plan(wide).report.contact_spacing
+    assert found.kept == 0 and len(found.unreachable) == found.footprint
+    nearest = [one["nearest_mm"] for one in found.unreachable]
     assert max(nearest) < 2 * wide.tool.radius_mm
-    assert f"no spin gives it, the nearest is {min(nearest):.2f} to" in spacing.sentence(found)
+    assert f"no spin gives it, the nearest is {min(nearest):.2f} to" in found.sentence
 
 
 def test_a_turned_part_keeps_the_spacing_across_its_feed(saddle_job: Job) -> None:
@@ -86,7 +86,7 @@ def test_a_turned_part_keeps_the_spacing_across_its_feed(saddle_job: Job) -> Non
     apart = plan.contacts[:, 1] - plan.contacts[:, 0]
     across = np.hypot(apart[:, 0], apart[:, 2])  # the feed runs along the part's y
     kept = np.abs(across - 3.0) <= 0.03
-    assert np.count_nonzero(kept) == plan.report["contact_spacing"]["kept"] > 0.8 * len(kept)
+    assert np.count_nonzero(kept) == plan.report.contact_spacing.kept > 0.8 * len(kept)
 
 
 @pytest.mark.parametrize(

@@ -9,8 +9,8 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from test_cli import run
-from test_cutting import moves, plane
+from command_line import run
+from cut_samples import moves, plane
 
 from freecad_mpm.core import removal
 from freecad_mpm.core.job import Job, Part, ToolSpec

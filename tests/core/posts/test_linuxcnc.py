@@ -1,6 +1,6 @@
 """LinuxCNC as an independent reader and kinematician: its interpreter runs our program, its modules agree with us.
 
-The whole chain on many blocks: MPM_LINUXCNC_BLOCKS=100000 ./dev test tests/core/test_linuxcnc.py"""
+The whole chain on many blocks: MPM_LINUXCNC_BLOCKS=100000 ./dev test tests/core/posts/test_linuxcnc.py"""
 
 import os
 import re

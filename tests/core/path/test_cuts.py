@@ -116,8 +116,8 @@ def test_what_cannot_be_certified_is_named(change: dict[str, object], message: s
 def test_every_cut_of_a_proven_plan_is_proven(plan: Plan) -> None:
     cuts = plan.path.kind == "cut"
     assert (plan.path.clearance[cuts] >= -plan.job.tolerance.chord_mm).all()
-    assert plan.report["positions"]["inserted"] == np.count_nonzero(plan.inserted) > 0
-    assert np.count_nonzero(cuts) == np.count_nonzero(plan.neighbours) - plan.report["path"]["moves_not_cut"]
+    assert plan.report.positions.inserted == np.count_nonzero(plan.inserted) > 0
+    assert np.count_nonzero(cuts) == np.count_nonzero(plan.neighbours) - plan.report.path.moves_not_cut
     assert (np.diff(plan.pass_index) >= 0).all()
     # Passes run along y: what was put in stands in its place.
     for number in np.unique(plan.pass_index):
@@ -156,7 +156,7 @@ def test_the_report_ends_with_one_statement(plan: Plan) -> None:
         f"free to 1 µm at all {usable} positions, within 10 µm on all {cuts} cuts between them, "
         f"within 10 µm on all {slow} plunges and retracts, clear on all {rapids} rapids, proven"
     )
-    assert plan.report["statement"] == said
+    assert plan.report.statement == said
     assert text(plan.report).splitlines()[-1].startswith(said[1:], 1)
 
 
@@ -182,17 +182,17 @@ def test_the_machine_gets_the_deviation_that_the_certificate_took_off(plan: Plan
     spec = plan.job
     share_mm = CONTROL_SHARE * spec.tolerance.chord_mm
     assert control_deviation_deg(spec) == pytest.approx(np.degrees(share_mm / spec.tool.radius_mm))
-    assert plan.report["program"]["findings"] == []
+    assert plan.report.program.report.findings == []
 
 
 def test_a_sampled_method_gets_no_positions_and_no_proof(thesis_job: Job) -> None:
     plan = planning.plan(replace(thesis_job, method=job.MethodSpec("vcrf")))
     assert not plan.inserted.any()
-    assert "no proof" in plan.report["statement"]
+    assert "no proof" in plan.report.statement
 
 
 def test_verify_judges_the_cuts_of_a_file(plan: Plan, tmp_path: Path) -> None:
-    text = cl_file.to_csv(plan, plan.path)
+    text = cl_file.to_csv(plan.positions, plan.path)
     (tmp_path / "cl.csv").write_text(text)
     good = judge.verify(plan.job, cl_file.read_csv(tmp_path / "cl.csv"), Stages())
     assert good.good and len(good.verdict) == len(good.moves) - 1
@@ -225,7 +225,7 @@ def test_a_cancel_stops_the_certificates_soon(thesis_job: Job) -> None:
 @pytest.mark.parametrize("name", ["convex", "concave", "saddle", "bonnet_die"])
 def test_all_moves_of_a_shipped_example_are_proven(name: str) -> None:
     plan = planning.plan(job.load(EXAMPLES / f"{name}.toml"))
-    assert plan.report["path"]["moves_not_cut"] == 0
-    assert plan.report["path"]["worst_cut_clearance_mm"] >= -0.01
-    assert plan.path.proven.all() and plan.report["path"]["links_not_proven"] == []
-    assert "rapids, proven" in plan.report["statement"] and " of " not in plan.report["statement"]
+    assert plan.report.path.moves_not_cut == 0
+    assert plan.report.path.worst_cut_clearance_mm >= -0.01
+    assert plan.path.proven.all() and plan.report.path.links_not_proven == []
+    assert "rapids, proven" in plan.report.statement and " of " not in plan.report.statement

@@ -145,8 +145,8 @@ def test_on_a_part_the_axis_keeps_what_the_certificate_allows(machine, thesis_pa
     path = tmp_path / "job.toml"
     path.write_text(PART_JOB.format(tool=TOOL, part=thesis_part("convex"), machine=machine))
     plan = planning.plan(job.load(path))
-    assert plan.report["verdict"]["good"], plan.report["verdict"]["line"]
-    assert plan.report["program"]["nearest_to_pole_deg"] < 1e-6
+    assert plan.report.verdict.good, plan.report.verdict.line
+    assert plan.report.program.report.nearest_to_pole_deg < 1e-6
     middle = plan.path.pass_index == 1
     cuts = middle & (plan.path.kind == "cut")
     cuts[np.flatnonzero(cuts)[0] - 1] = True  # where the first of them starts

@@ -16,7 +16,7 @@ from freecad_mpm.core.part import FaceArrays, prepare
 from freecad_mpm.core.part.faces import to_core
 from freecad_mpm.core.positioning import method_names
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 README, COMPARISON = ROOT / "README.md", ROOT / "docs" / "comparison.md"
 SUBSET = ("exact", "vcrf")
 TIMES = ("time", "µs a position", "index, s", "times the base")

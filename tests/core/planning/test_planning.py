@@ -73,7 +73,7 @@ def test_a_plan_holds_what_it_says(coarse_job: Job) -> None:
     reached = plan.path.position >= 0
     assert (plan.path.tip[reached] == plan.tip[on_path]).all()
     assert plan.path.kind[0] == "rapid" and plan.path.kind[-1] in ("rapid", "retract")
-    assert plan.report["positions"]["count"] == count
+    assert plan.report.positions.count == count
     assert plan.program.text.startswith("%MPM01 G71 *")
 
 
@@ -89,14 +89,14 @@ def test_the_default_method_proves_its_positions(coarse_job: Job) -> None:
     plan = planning.plan(
         replace(coarse_job, method=MethodSpec(), tolerance=Tolerance(gouge_mm=0.001, chord_mm=2.0))
     )
-    assert plan.report["positions"]["guarantee"] == "proven"
+    assert plan.report.positions.guarantee == "proven"
     assert plan.clearance[:, 0].min() >= -0.001
     assert (plan.clearance[:, 0] <= plan.clearance[:, 1]).all()
-    assert plan.report["verdict"]["line"] == "good (positions, cuts and links proven)"
+    assert plan.report.verdict.line == "good (positions, cuts and links proven)"
 
 
 def same_results(plan: Plan) -> tuple[str, str]:
-    return cl_file.to_csv(plan, plan.path), plan.program.text
+    return cl_file.to_csv(plan.positions, plan.path), plan.program.text
 
 
 @pytest.mark.parametrize("gouge_mm", [1e-2, 1e-5])
@@ -200,7 +200,7 @@ def test_progress_is_reported_stage_by_stage_in_the_callers_thread(coarse_job: J
         threads.add(threading.current_thread())
 
     plan = planning.plan(coarse_job, on_progress=on_progress)
-    assert list(dict.fromkeys(stage for stage, _ in seen)) == list(plan.report["time"]["stages_s"])
+    assert list(dict.fromkeys(stage for stage, _ in seen)) == list(plan.report.time.stages_s)
     assert all(0.0 <= fraction <= 1.0 for _, fraction in seen)
     assert threads == {threading.current_thread()}
 

@@ -7,43 +7,18 @@ import json
 import os
 import pty
 import signal
-import subprocess
-import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from command_line import run, start
 
-ROOT = Path(__file__).resolve().parents[2]
 RESULTS = {"cl.csv", "cl.apt", "program.I", "report.json", "report.txt", "machined.stl", "path.png"}
 
 
 # From Ctrl-C to the end of the process, on a machine that is busy with other things.
 STOPPED_S = 5.0
-
-
-def start(*arguments: object, stderr: int = subprocess.PIPE) -> subprocess.Popen[str]:
-    return subprocess.Popen(
-        [sys.executable, "-m", "freecad_mpm", *map(str, arguments)],
-        env={**os.environ, "PYTHONPATH": str(ROOT)},
-        text=True,
-        stdout=subprocess.PIPE,
-        stderr=stderr,
-        preexec_fn=listen_to_ctrl_c,
-    )
-
-
-def listen_to_ctrl_c() -> None:
-    """Also when the tests run in the background, where shells switch Ctrl-C off."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
-
-
-def run(*arguments: object) -> tuple[int, str, str]:
-    """Exit status, stdout, stderr."""
-    process = start(*arguments)
-    out, error = process.communicate(timeout=300)
-    return process.returncode, out, error
 
 
 def test_plan_writes_all_results_and_says_where(job_file: Path, tmp_path: Path) -> None:

@@ -6,7 +6,7 @@ import csv
 
 import numpy as np
 import pytest
-from test_cutting import BALL_MM, BOX, passes_over, plane, scene_of
+from cut_samples import BALL_MM, BOX, passes_over, plane, scene_of
 
 from freecad_mpm.core import removal
 from freecad_mpm.core.base import InputError

@@ -52,11 +52,11 @@ def plan_on(*arguments):
 @pytest.mark.parametrize("post, tcp", [("dmu80p", "true"), ("dmu80p", "false"), ("linuxcnc", "true")])
 def test_the_tool_goes_up_turns_and_goes_on(limited, thesis_part, tmp_path, post, tcp):
     plan = plan_on(limited, thesis_part, tmp_path, post, tcp)
-    assert plan.report["verdict"]["good"], plan.report["verdict"]["line"]
+    assert plan.report.verdict.good, plan.report.verdict.line
     assert plan.path.proven.all()
     turned = rewinds(plan.path)
     assert len(turned) >= 1
-    assert any("rewind on the safe plane, before positions" in line for line in plan.report["warnings"])
+    assert any("rewind on the safe plane, before positions" in line for line in plan.report.warnings)
     for position in turned:
         assert_interrupted(plan, int(np.flatnonzero(plan.path.position == position)[0]))
 
@@ -97,7 +97,7 @@ def assert_on_the_way(path, middle, end):
 
 def test_an_endless_table_needs_none(thesis_part, tmp_path):
     plan = plan_on("dmu80p", thesis_part, tmp_path)
-    assert len(rewinds(plan.path)) == 0 and plan.report["verdict"]["good"]
+    assert len(rewinds(plan.path)) == 0 and plan.report.verdict.good
 
 
 def test_cuts_are_as_many_and_as_proven_as_without(limited, thesis_part, tmp_path):
@@ -113,10 +113,10 @@ def test_a_rotary_axis_that_cannot_help_is_told_with_its_position(limited, thesi
         re.sub(r"max_limit_deg = 180.0( +# spindle)", r"max_limit_deg = 2.0\1", limited.read_text())
     )
     plan = plan_on(limited, thesis_part, tmp_path)
-    assert not plan.report["verdict"]["good"]
+    assert not plan.report.verdict.good
     assert re.search(
         r"a rotary axis leaves its limits: \d+ moves, the first in move \d+ at position \d+",
-        plan.report["verdict"]["line"],
+        plan.report.verdict.line,
     )
 
 
