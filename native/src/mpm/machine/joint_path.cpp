@@ -5,8 +5,8 @@
 #include <compare>
 #include <string>
 
+#include "mpm/base/direction.h"
 #include "mpm/base/error.h"
-#include "mpm/machine/direction.h"
 #include "mpm/machine/rotary_candidates.h"
 
 namespace mpm {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "mpm/base/direction.h"
 #include "mpm/base/error.h"
-#include "mpm/machine/direction.h"
 #include "mpm/machine/joint_motion.h"
 
 namespace mpm {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mpm/base/direction.h"
 #include "mpm/base/parallel.h"
 #include "mpm/surface/box_tree.h"
 
