@@ -4,6 +4,8 @@
 #include <random>
 #include <vector>
 
+#include "mpm/base/instruction_set.h"
+#include "mpm/removal/ring_cut.h"
 #include "mpm/removal/tool_sweep.h"
 
 namespace mpm {
