@@ -1,16 +1,23 @@
-// Included once for each instruction set, with MPM_SIDE_BY_SIDE batches (1 or 2) in one vector. Nothing here may
-// have external linkage: the linker would keep one copy for all.
-#include "mpm/base/lanes.inc"
+// A kernel: compiled once for each instruction set (native/cmake/kernels.cmake).
 #include "mpm/contact/ring_kernel.h"
 
-namespace mpm {
+// How many batches one vector holds.
+#ifdef __AVX512DQ__
+#define MPM_SIDE_BY_SIDE 2
+#else
+#define MPM_SIDE_BY_SIDE 1
+#endif
+#include "mpm/base/lanes.h"
+
+namespace mpm::MPM_ISA {
 namespace {
 
 // Hessians nearer to singular than this, relative to their entries, count as singular (docs/numerics.md).
 constexpr double kSingular = 1e-14;
 // Of the cutter's radius: the second order says nothing of larger cells.
 constexpr double kLargestCell = 0.4;
-// Of what the bound takes off for what it does not know, so much is never met when the least clearance is estimated.
+// Of what the bound takes off for what it does not know, so much is never met when the least clearance is
+// estimated.
 constexpr double kBelieved = 0.97;
 // Of a cell's half-width: how far its unknowns may be shifted by the ring's bend.
 constexpr double kMostShift = 0.5;
@@ -122,9 +129,7 @@ Quadratic second_order(const RingFrame& ring, const Cells& cells, const Meridian
   };
   const Component A = split(CellBatch::a), B = split(CellBatch::b), C = split(CellBatch::aa),
                   E = split(CellBatch::ab), F = split(CellBatch::bb);
-  const auto rest = [&](Lanes Component::*k) {
-    return absolute(C.*k) + absolute(E.*k) + absolute(F.*k);
-  };
+  const auto rest = [&](Lanes Component::*k) { return absolute(C.*k) + absolute(E.*k) + absolute(F.*k); };
   const auto linear = [&](Lanes Component::*k) { return absolute(A.*k) + absolute(B.*k); };
   const Lanes p1 = linear(&Component::p), p2 = rest(&Component::p), p_most = p1 + p2;
   const Lanes t1 = linear(&Component::t), t2 = rest(&Component::t);
@@ -147,8 +152,8 @@ Quadratic second_order(const RingFrame& ring, const Cells& cells, const Meridian
   const Lanes kr = -nr * (outside ? w_outside * inverse_ring_leg : w * inverse_r);
 
   const Lanes t_most = t1 + t2 + absolute(nz) * bulge;
-  // The unknowns are shifted so that what is squared with kt is linear in them; where the cell is too oblique for
-  // that, they stay and what bends there is cubic.
+  // The unknowns are shifted so that what is squared with kt is linear in them; where the cell is too oblique
+  // for that, they stay and what bends there is cubic.
   const Lanes zero = all(0);
   const Lanes t_rest = t2 + absolute(nz) * bulge_rest;
   const Lanes t_square = t_most * t_most, n_rest = n2 + most(nr, zero) * bulge;
@@ -181,16 +186,17 @@ Quadratic second_order(const RingFrame& ring, const Cells& cells, const Meridian
   const Lanes na = -kd * A.n, nb = -kd * B.n;
   Quadratic q;
   q.aaa = two_kp * A.p * C.p + two_kt * A.t * Ct + pAA * ma + tAA * na;
-  q.aab = two_kp * (A.p * E.p + B.p * C.p) + two_kt * (A.t * Et + B.t * Ct) + pAA * mb + pAB * ma +
-          tAA * nb + tAB * na;
-  q.abb = two_kp * (A.p * F.p + B.p * E.p) + two_kt * (A.t * Ft + B.t * Et) + pBB * ma + pAB * mb +
-          tBB * na + tAB * nb;
+  q.aab = two_kp * (A.p * E.p + B.p * C.p) + two_kt * (A.t * Et + B.t * Ct) + pAA * mb + pAB * ma + tAA * nb +
+          tAB * na;
+  q.abb = two_kp * (A.p * F.p + B.p * E.p) + two_kt * (A.t * Ft + B.t * Et) + pBB * ma + pAB * mb + tBB * na +
+          tAB * nb;
   q.bbb = two_kp * B.p * F.p + two_kt * B.t * Ft + pBB * mb + tBB * nb;
   const Lanes least_kp = least(kp, zero);
   const Lanes t_loss =
-      shifts ? (most(kt * turned * turned + kr * nz * nz * w, zero) * p1_square + absolute(kr * nz) * t_rest) *
-                   p1_square
-             : 2 * kt * t1 * absolute(nz) * bulge_rest + kd * (2 * t1 + bend) * bend * n1;
+      shifts
+          ? (most(kt * turned * turned + kr * nz * nz * w, zero) * p1_square + absolute(kr * nz) * t_rest) *
+                p1_square
+          : 2 * kt * t1 * absolute(nz) * bulge_rest + kd * (2 * t1 + bend) * bend * n1;
   q.loss = error(cells) - least_kp * p2 * p2 + absolute(two_kp) * p1 * p2 * squares_shift +
            absolute(kr) * (p_square * r2 + p_mixed * r1 + p1_square * absolute(nr * kn) * shifted) +
            t_square * kd * (most(n_rest - 0.5 * tube_leg, zero) + absolute(kn) * shifted) + t_loss +
@@ -276,7 +282,8 @@ void store(CellBatch& cells, CellBatch::Term term, const Vectors<Four>& v) {
 
 void quarter(const CellBatch& whole, int lane, CellBatch& quarters) {
   const auto same = [&](CellBatch::Term term) -> Vectors<Four> {
-    return {four(whole.term[term][0][lane]), four(whole.term[term][1][lane]), four(whole.term[term][2][lane])};
+    return {
+        four(whole.term[term][0][lane]), four(whole.term[term][1][lane]), four(whole.term[term][2][lane])};
   };
   const Four a = {-0.5, 0.5, -0.5, 0.5}, b = {-0.5, -0.5, 0.5, 0.5}, fourth = four(0.25);
   const Vectors<Four> A = same(CellBatch::a), B = same(CellBatch::b), C = same(CellBatch::aa),
@@ -297,4 +304,7 @@ void quarter(const CellBatch& whole, int lane, CellBatch& quarters) {
 }
 
 }  // namespace
-}  // namespace mpm
+
+const RingKernel kRingKernel{bound, quarter};
+
+}  // namespace mpm::MPM_ISA

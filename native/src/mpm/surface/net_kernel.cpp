@@ -1,10 +1,9 @@
-// Included once for each instruction set, with MPM_NET naming the function. Nothing else here may have external
-// linkage.
-#include <cstring>
-
+// A kernel: compiled once for each instruction set (native/cmake/kernels.cmake).
 #include "mpm/surface/net_kernel.h"
 
-namespace mpm {
+#include <cstring>
+
+namespace mpm::MPM_ISA {
 namespace {
 
 typedef double Point __attribute__((vector_size(32)));
@@ -39,9 +38,7 @@ void sum(const double* control,
   std::memcpy(out, all, sizeof all);
 }
 
-}  // namespace
-
-void MPM_NET(const double* control,
+void sum_net(const double* control,
              int degree_u,
              int degree_v,
              const BasisRows& u,
@@ -53,4 +50,8 @@ void MPM_NET(const double* control,
     sum<0, 0>(control, degree_u, degree_v, u, v, out);
 }
 
-}  // namespace mpm
+}  // namespace
+
+const NetKernel kNetKernel{sum_net};
+
+}  // namespace mpm::MPM_ISA

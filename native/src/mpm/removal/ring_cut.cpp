@@ -1,9 +1,10 @@
-// Included once for each instruction set. Nothing here may have external linkage: the linker would keep one
-// copy for all.
-#include "mpm/base/lanes.inc"
+// A kernel: compiled once for each instruction set (native/cmake/kernels.cmake). With AVX-512 the vectors are
+// as wide as AVX2's: there are twice as many registers, and masks of their own.
 #include "mpm/removal/ring_cut.h"
 
-namespace mpm {
+#include "mpm/base/lanes.h"
+
+namespace mpm::MPM_ISA {
 namespace {
 
 constexpr double kRayStep = 5e-7;      // mm: a Newton step along the ray shorter than this was the last
@@ -274,4 +275,7 @@ RingCut cut(const RingStroke& ring, RayBatch& rays, double below) {
 }
 
 }  // namespace
-}  // namespace mpm
+
+const RingCutter kRingCutter{clear, cut};
+
+}  // namespace mpm::MPM_ISA

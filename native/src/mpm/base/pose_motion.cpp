@@ -1,6 +1,8 @@
-#include "mpm/path/pose_motion.h"
+#include "mpm/base/pose_motion.h"
 
 #include <cmath>
+
+#include "mpm/base/direction.h"
 
 namespace mpm {
 namespace {
@@ -9,8 +11,6 @@ namespace {
 constexpr double kStraightAngle = 1e-7;
 
 }  // namespace
-
-double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
 TipPose pose_between(const TipPose& a, const TipPose& b, double t) {
   const double angle = angle_between(a.axis, b.axis);

@@ -10,9 +10,6 @@ struct TipPose {
   Vec3 axis;  // unit, tip to spindle
 };
 
-// Angle between two directions, radians in [0, pi]; accurate for small angles.
-double angle_between(const Vec3& a, const Vec3& b);
-
 // The pose at fraction `t` in [0, 1] of the move from `a` to `b`. Requires axes that are not opposite.
 TipPose pose_between(const TipPose& a, const TipPose& b, double t);
 

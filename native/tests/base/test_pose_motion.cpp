@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "mpm/path/pose_motion.h"
+#include "mpm/base/direction.h"
+#include "mpm/base/pose_motion.h"
 
 namespace mpm {
 namespace {
