@@ -8,7 +8,6 @@
 namespace mpm {
 namespace {
 
-constexpr double kOnAxis = 1e-6;         // mm: a contact nearer to the tool axis has no insert
 constexpr double kFirstTilt = kPi / 36;  // 5 degrees: the first start of the tilt
 constexpr double kOpposite = 0.5 * kPi;  // phi of the far side of the major circle
 
@@ -136,7 +135,7 @@ Dstm::Dropped::Dropped(const Dstm& method, const Vec2& at, Counters& counters)
   upright_.pose = {Vec3(at.x(), at.y(), drop->height), Vec3::UnitZ()};
   upright_.first_contact = p_.s, upright_.first_normal = p_.n;
   upright_.tilt = 0;
-  tilts_ = tool.major_radius > 0 && (p_.s.head<2>() - at).norm() > kOnAxis;
+  tilts_ = tool.major_radius > 0 && (p_.s.head<2>() - at).norm() > kOnAxis * tool.radius();
 }
 
 Placement Dstm::Dropped::spun(double spin, Counters& counters) const {
