@@ -2,6 +2,7 @@
 #include "mpm/gouge/certify_motion.h"
 #include "mpm/gouge/certify_poses.h"
 #include "mpm/gouge/judge_cells.h"
+#include "mpm/gouge/sample_poses.h"
 
 namespace mpm::bindings {
 namespace {
@@ -49,6 +50,20 @@ py::dict poses(const SurfaceModel& model,
     found = certify_poses(model, tool, all, tolerance_mm, context);
   }
   return to_dict(found);
+}
+
+py::array_t<double> sampled_clearance(const SurfaceModel& model,
+                                      const Tool& tool,
+                                      const DoubleArray& tips,
+                                      const DoubleArray& axes,
+                                      Context& context) {
+  const std::vector<ToolPose> all = to_poses(tool, tips, axes, "tips", "axes");
+  std::vector<double> found;
+  {
+    py::gil_scoped_release release;
+    found = sample_poses(model, tool, all, context);
+  }
+  return from_scalars(found);
 }
 
 // One number for all motions, or one for each.
@@ -115,6 +130,15 @@ void bind_gouge(py::module_& m) {
         "Certificates of the poses tips, axes (N, 3). Dict of lo, hi (N,) mm, proven and met bounds of the "
         "clearance (lo of a pose deeper than tolerance_mm: within a thousandth of the depth, or -inf), "
         "verdict (N,) codes of VERDICTS, cells (N,).");
+  m.def("sampled_clearance",
+        &sampled_clearance,
+        py::arg("model"),
+        py::arg("tool"),
+        py::arg("tips"),
+        py::arg("axes"),
+        py::arg("context"),
+        "Least sampled signed distance (mm) of the surfaces from the tool at each tip, axis (N, 3); at most "
+        "the tool's radius.");
   m.def("certify_motions",
         &motions,
         py::arg("cells"),

@@ -5,9 +5,9 @@
 #include "common.h"
 #include "mpm/base/context.h"
 #include "mpm/footprint/plan_locator.h"
-#include "mpm/gouge/clearance_sampler.h"
 #include "mpm/positioning/contact_spacing.h"
-#include "mpm/positioning/method.h"
+#include "mpm/positioning/place_all.h"
+#include "mpm/positioning/registry.h"
 
 namespace mpm::bindings {
 namespace {
@@ -147,27 +147,6 @@ class Positioner {
   std::unique_ptr<Method> method_;
 };
 
-py::array_t<double> sampled_clearance(const SurfaceModel& model,
-                                      const Tool& tool,
-                                      const DoubleArray& tips,
-                                      const DoubleArray& axes,
-                                      Context& context) {
-  const std::vector<Vec3> tip = to_vectors<Vec3>(tips, "tips"), axis = to_vectors<Vec3>(axes, "axes");
-  require(tip.size() == axis.size(), "tips and axes must have the same shape (N, 3)");
-  Placements placements;
-  placements.positions.resize(tip.size());
-  for (std::size_t i = 0; i < tip.size(); ++i)
-    placements.positions[i].pose = ToolPose::from_tip(tool, tip[i], axis[i]);
-  {
-    py::gil_scoped_release release;
-    judge_by_sampling(model, tool, placements, context);
-  }
-  py::array_t<double> result(py::ssize_t(tip.size()));
-  for (std::size_t i = 0; i < tip.size(); ++i)
-    result.mutable_at(py::ssize_t(i)) = placements.positions[i].clearance_hi;
-  return result;
-}
-
 py::array_t<bool> restrict_to_faces(const SurfaceModel& model,
                                     const Tool& tool,
                                     const DoubleArray& points,
@@ -261,16 +240,6 @@ void bind_positioning(py::module_& m) {
            "direction (N, 3) of the ring's tangent there. Result as of `place`; tilt_deg is the contact "
            "angle, 0 "
            "on the ring's equator and 90 on its bottom.");
-  m.def("sampled_clearance",
-        &sampled_clearance,
-        py::arg("model"),
-        py::arg("tool"),
-        py::arg("tips"),
-        py::arg("axes"),
-        py::arg("context"),
-        "Least sampled signed distance (mm) of the surfaces from the tool at each tip, axis (N, 3); at most "
-        "the tool's "
-        "radius.");
   m.def("restrict_to_faces",
         &restrict_to_faces,
         py::arg("model"),
