@@ -111,9 +111,9 @@ TEST(Pam, MatchesAPlane) {
       }
 }
 
-// A ball of 1 km is no plane yet: it falls by 1.25 micrometres over 50 mm.
+// A ball of 1 km is no plane yet: it falls away by 1.25 micrometres over 50 mm.
 TEST(Pam, NothingMatchesABallHoweverLarge) {
-  const SurfaceModel model = nearly_plane(0, -1e-6, 0, Vec3::Zero());
+  const SurfaceModel model = nearly_plane(0.2, -1e-6, 0, Vec3::Zero());
   EXPECT_EQ(place("pam", model, {Vec2(30, 20)}).positions[0].status, PositionStatus::one_contact);
 }
 
