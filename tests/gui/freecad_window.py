@@ -15,7 +15,7 @@ from typing import Any
 ROOT = Path(__file__).resolve().parents[2]
 # Only what will never come takes so long, on a loaded machine too.
 LIMIT_S = 300.0
-POLL_S = 0.05
+POLL_S = 0.02
 LOG_TAIL = 4000
 # Of the caller's environment FreeCAD gets these; others (XDG_CONFIG_HOME, QT_SCALE_FACTOR, LANG, ...) would change where
 # it looks for its profile, how large its widgets are and what they say.
@@ -146,19 +146,13 @@ class FreeCADWindow:
     def __enter__(self) -> FreeCADWindow:
         self._make_profile()
         self._drop.mkdir()
-        environment = {name: os.environ[name] for name in PASSED_ON if name in os.environ}
-        environment |= {**SETTINGS, "HOME": str(self._home), "MPM_DROP": str(self._drop)}
         self._manager = subprocess.Popen(["openbox"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        with open(self.log, "wb") as log:
-            self._process = subprocess.Popen(
-                [freecad(), str(Path(__file__).with_name("driver.py"))],
-                env=environment, stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT,
-                preexec_fn=lambda: os.sched_setaffinity(0, sorted(os.sched_getaffinity(0))[:PROCESSORS]),
-            )  # fmt: skip
-        self.wait_for(manages_windows, "a window manager")
-        self.run(PRELUDE + "window.showMaximized()\nwindow.activateWindow()")
-        self.wait_for(MAXIMISED, "FreeCAD's window all over the screen")
-        self.run(ARRANGE)
+        self._process = self._start()
+        try:
+            self._arrange()
+        except BaseException:
+            self.__exit__()
+            raise
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -193,12 +187,9 @@ class FreeCADWindow:
         ask = condition if callable(condition) else lambda: self.run(f"result = {condition}")
         end = time.monotonic() + LIMIT_S
         while not (value := ask()):
-            assert (
-                self._process.poll() is None
-            ), f"FreeCAD ended while waiting for {what}:\n{self._log_tail()}"
-            assert time.monotonic() < end, (
-                f"waited {LIMIT_S:g} s for {what}; the last answer was {value!r}\n{self._log_tail()}"
-            )  # fmt: skip
+            ended, late = self._process.poll() is not None, time.monotonic() > end
+            assert not ended, f"FreeCAD ended while waiting for {what}\n{self._log_tail()}"
+            assert not late, f"waited {LIMIT_S:g} s for {what}; last answer: {value!r}\n{self._log_tail()}"
             time.sleep(POLL_S)
         return value
 
@@ -235,6 +226,22 @@ class FreeCADWindow:
         self.run("Gui.updateGui()\nidle()")
         subprocess.run(["import", "-window", "root", str(path)], check=True)
         return path
+
+    def _start(self) -> subprocess.Popen[bytes]:
+        environment = {name: os.environ[name] for name in PASSED_ON if name in os.environ}
+        environment |= {**SETTINGS, "HOME": str(self._home), "MPM_DROP": str(self._drop)}
+        with open(self.log, "wb") as log:
+            return subprocess.Popen(
+                [freecad(), str(Path(__file__).with_name("driver.py"))],
+                env=environment, stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT,
+                preexec_fn=lambda: os.sched_setaffinity(0, sorted(os.sched_getaffinity(0))[:PROCESSORS]),
+            )  # fmt: skip
+
+    def _arrange(self) -> None:
+        self.wait_for(manages_windows, "a window manager")
+        self.run(PRELUDE + "window.showMaximized()\nwindow.activateWindow()")
+        self.wait_for(MAXIMISED, "FreeCAD's window all over the screen")
+        self.run(ARRANGE)
 
     def _at_rest(self, place: str) -> list[float]:
         """Where `place` is once nothing moves it any more."""
