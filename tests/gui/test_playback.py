@@ -28,7 +28,7 @@ def count(data, action):
 counter = coin.SoCallback()
 counter.setCallback(count, None)
 """
-FRAMES_COUNTED = 60
+FRAMES_COUNTED = 20
 # A path of so many positions that nobody waits for: playback needs the stored path alone.
 LONG = """
 import numpy as np
