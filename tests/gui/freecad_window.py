@@ -101,6 +101,14 @@ def middle_of_face(obj, name):
     return face.valueAt((u0 + u1) / 2, (v0 + v1) / 2)
 
 def middle_of(widget):
+    # None while it is hidden; a panel that is longer than the screen is scrolled to it
+    above = widget.parentWidget()
+    while above is not None:
+        if isinstance(above, QtGui.QScrollArea):
+            above.ensureWidgetVisible(widget)
+        above = above.parentWidget()
+    if widget.visibleRegion().isEmpty():
+        return None
     centre = widget.mapToGlobal(widget.rect().center())
     return [centre.x(), centre.y()]
 
@@ -244,15 +252,15 @@ class FreeCADWindow:
         self.run(ARRANGE)
 
     def _at_rest(self, place: str) -> list[float]:
-        """Where `place` is once nothing moves it any more."""
+        """Where `place` is, once it is to be seen and nothing moves it any more."""
         last = None
 
         def rests() -> bool:
             nonlocal last
             before, last = last, self.run(f"idle()\nresult = {place}")
-            return bool(last == before)
+            return last is not None and last == before
 
-        self.wait_for(rests, f"{place} to stand still")
+        self.wait_for(rests, f"{place} to be seen and stand still")
         assert last is not None
         return last
 
