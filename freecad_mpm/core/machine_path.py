@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -104,8 +103,6 @@ def machine_path(
     *,
     axis_tolerance_deg: float,
     tip_tolerance_mm: float | None = None,
-    part_origin_mm: tuple[float, float, float] | None = None,
-    tool_length_mm: float | None = None,
 ) -> MachinePath:
     """Joint values for a path of M moves (kind (M,), tip (M, 3) and axis (M, 3) in the set-up frame).
 
@@ -114,13 +111,7 @@ def machine_path(
     higher end of the rapid with its tip held, where the path must be clear of the part; only there may the rotary
     solution change. All given poses are kept, in order. Limits that cannot be kept are statuses, not errors.
 
-    part_origin_mm (of the set-up in the machine frame) and tool_length_mm: None takes the machine file's.
     Raises ValueError naming the argument."""
-    setup = machine.setup
-    place = {
-        "part_origin_mm": setup.part_origin_mm if part_origin_mm is None else part_origin_mm,
-        "tool_length_mm": setup.tool_length_mm if tool_length_mm is None else tool_length_mm,
-    }
     tcp = tip_tolerance_mm is None
     rows = _with_rapids_in_two(kind, tip, axis) if tcp else _as_given(kind, tip, axis)
     joints = _core.refine_path(
@@ -128,7 +119,7 @@ def machine_path(
         rows.tip,
         rows.axis,
         rows.held,
-        **place,
+        setup=machine.setup.native(),
         tip_tolerance_mm=np.inf if tip_tolerance_mm is None else tip_tolerance_mm,
         pole_cone_deg=machine.kinematics.pole_cone_deg,
         axis_tolerance_deg=axis_tolerance_deg,
@@ -150,12 +141,10 @@ def machine_path(
         status=status,
         at_pole=joints["at_pole"][keep],
     )
-    return path if tcp else _with_turns_at_the_top(machine, path, joints["keeps"][keep], place)
+    return path if tcp else _with_turns_at_the_top(machine, path, joints["keeps"][keep])
 
 
-def _with_turns_at_the_top(
-    machine: Machine, path: MachinePath, keeps: Flags, place: dict[str, Any]
-) -> MachinePath:
+def _with_turns_at_the_top(machine: Machine, path: MachinePath, keeps: Flags) -> MachinePath:
     """Before each rapid whose joints would swing the tip off its way: up along Z, the turn, and across, so that the
     rapid itself only goes down."""
     turns = np.flatnonzero(~keeps & (path.kind == "rapid"))
@@ -169,7 +158,7 @@ def _with_turns_at_the_top(
     linear[1::3] = path.linear_mm[turns - 1]
     linear[:, 2] = np.maximum(z, linear[:, 2])
     angles[0::3] = path.angles_deg[turns - 1]
-    tip, axis = machine.chain().forward(linear, angles, **place)
+    tip, axis = machine.chain().forward(linear, angles, setup=machine.setup.native())
     given = np.repeat(turns, 3)
     inserted = {"tip": tip, "axis": axis, "linear_mm": linear, "angles_deg": angles}
     columns = {

@@ -74,15 +74,11 @@ def _pieces(machine: Machine, joints: MachinePath, hold_tip: bool) -> _Pieces:
         part = fraction[:, None]
         return np.asarray((1 - part) * column[row - 1] + part * column[row])
 
-    chain = machine.chain()
-    place = {
-        "part_origin_mm": machine.setup.part_origin_mm,
-        "tool_length_mm": machine.setup.tool_length_mm,
-    }
+    chain, setup = machine.chain(), machine.setup.native()
     readings = [at(column, when) for when in (start, end) for column in (joints.linear_mm, joints.angles_deg)]
-    tip, axis = chain.forward(*readings[:2], **place)
-    tip_to, axis_to = chain.forward(*readings[2:], **place)
-    tip_off_mm, axis_off_deg = chain.deviation_bound(*readings, **place)
+    tip, axis = chain.forward(*readings[:2], setup=setup)
+    tip_to, axis_to = chain.forward(*readings[2:], setup=setup)
+    tip_off_mm, axis_off_deg = chain.deviation_bound(*readings, setup=setup)
     if hold_tip:
         tip, tip_to, tip_off_mm = at(joints.tip, start), at(joints.tip, end), np.zeros(len(row))
     return _Pieces(row, tip, axis, tip_to, axis_to, tip_off_mm, axis_off_deg)

@@ -11,6 +11,7 @@ from freecad_mpm.core import kinematics
 from freecad_mpm.core.machine_path import axis_tolerance_deg, machine_path
 
 ORIGIN, LENGTH = (30.0, -40.0, 120.0), 137.0
+SETUP = _core.PartSetup(part_origin_mm=ORIGIN, tool_length_mm=LENGTH)
 
 
 def crooked_machine():
@@ -44,12 +45,12 @@ def test_both_solutions_of_random_poses_go_round(make):
     machine, random = make(), np.random.default_rng(4)
     tip = random.uniform(-100, 100, (500, 3))
     axis = directions(random.uniform(3, 80, 500), random.uniform(-180, 180, 500))
-    chain, setup = machine.chain(), dict(part_origin_mm=ORIGIN, tool_length_mm=LENGTH)
-    solutions = chain.inverse(tip, axis, **setup)
+    chain = machine.chain()
+    solutions = chain.inverse(tip, axis, setup=SETUP)
     assert solutions["reachable"].all()
     for k in range(2):
         back_tip, back_axis = chain.forward(
-            solutions["linear_mm"][:, k], solutions["rotary_deg"][:, k], **setup
+            solutions["linear_mm"][:, k], solutions["rotary_deg"][:, k], setup=SETUP
         )
         assert np.abs(back_tip - tip).max() < 1e-9
         assert np.abs(back_axis - axis).max() < 1e-12
@@ -60,7 +61,7 @@ def test_numpy_kinematics_of_the_checks_agree_with_the_native(make):
     machine, random = make(), np.random.default_rng(5)
     angles = random.uniform(-720, 720, (300, 2))
     linear = random.uniform(-300, 300, (300, 3))
-    tip, axis = machine.chain().forward(linear, angles, part_origin_mm=ORIGIN, tool_length_mm=LENGTH)
+    tip, axis = machine.chain().forward(linear, angles, setup=SETUP)
     assert np.abs(kinematics.tool_axes(machine, angles) - axis).max() < 1e-12
     assert (
         np.abs(kinematics.linear_readings(machine, tip, angles, np.array(ORIGIN), LENGTH) - linear).max()

@@ -1,39 +1,29 @@
 #include <optional>
 
-#include "common.h"
+#include "columns.h"
 #include "mpm/path/link_passes.h"
+#include "mpm/path/pose_motion.h"
 
 namespace mpm::bindings {
 namespace {
 
-template <class To, class From>
-std::vector<To> to_scalars(const py::array_t<From, py::array::c_style | py::array::forcecast>& a,
-                           const char* name) {
-  require(a.ndim() == 1, std::string(name) + " must have shape (N,), got " + shape_of(a));
-  return {a.data(), a.data() + a.size()};
-}
-
 py::dict to_dict(const ToolPath& path) {
-  std::vector<std::uint8_t> kind;
-  for (MoveKind k : path.kind) kind.push_back(std::uint8_t(k));
-  py::dict result;
-  result["kind"] = from_scalars(kind);
-  result["tip"] = from_vectors(path.tip);
-  result["axis"] = from_vectors(path.axis);
-  result["position"] = from_scalars(path.position);
-  result["pass_index"] = from_scalars(path.pass);
-  result["clearance"] = from_scalars(path.clearance);
-  result["proven"] = from_scalars(path.proven).attr("astype")("bool");
-  result["blocked"] = from_scalars(path.blocked).attr("astype")("bool");
-  return result;
+  return table({{"kind", to_array(path.kind)},
+                {"tip", to_array(path.tip)},
+                {"axis", to_array(path.axis)},
+                {"position", to_array(path.position)},
+                {"pass_index", to_array(path.pass)},
+                {"clearance", to_array(path.clearance)},
+                {"proven", to_flags(path.proven)},
+                {"blocked", to_flags(path.blocked)}});
 }
 
 py::dict link(const CellTree& cells,
               const Tool& tool,
               const DoubleArray& tip,
               const DoubleArray& axis,
-              const py::array_t<std::int32_t, py::array::c_style | py::array::forcecast>& pass_index,
-              const py::array_t<bool, py::array::c_style | py::array::forcecast>& usable,
+              const IntArray& pass_index,
+              const FlagArray& usable,
               const LinkOptions& options,
               const std::optional<DoubleArray>& cut_clearance,
               Context& context) {
@@ -42,13 +32,8 @@ py::dict link(const CellTree& cells,
       to_vectors<Vec3>(axis, "axis"),
       to_scalars<std::int32_t>(pass_index, "pass_index"),
       to_scalars<std::uint8_t>(usable, "usable"),
-      cut_clearance ? to_doubles(*cut_clearance, "cut_clearance") : std::vector<double>{}};
-  ToolPath path;
-  {
-    py::gil_scoped_release release;
-    path = link_passes(cells, tool, positions, options, context);
-  }
-  return to_dict(path);
+      cut_clearance ? to_scalars(*cut_clearance, "cut_clearance") : std::vector<double>{}};
+  return to_dict(without_gil([&] { return link_passes(cells, tool, positions, options, context); }));
 }
 
 LinkOptions make_options(double safe_clearance_mm,
@@ -75,12 +60,18 @@ LinkOptions make_options(double safe_clearance_mm,
           radians(axis_deviation_deg)};
 }
 
+py::tuple between(
+    const Vec3& tip, const Vec3& axis, const Vec3& tip_to, const Vec3& axis_to, double fraction) {
+  const TipPose from{tip, to_direction(axis, "axis")}, to{tip_to, to_direction(axis_to, "axis_to")};
+  require(angle_between(from.axis, to.axis) < kPi, "axis and axis_to must not be opposite");
+  const TipPose pose = pose_between(from, to, fraction);
+  return py::make_tuple(pose.tip, pose.axis);
+}
+
 }  // namespace
 
 void bind_path(py::module_& m) {
-  py::list names;
-  for (const char* name : kMoveKindNames) names.append(name);
-  m.attr("MOVE_KINDS") = py::tuple(names);
+  m.attr("MOVE_KINDS") = to_tuple(kMoveKindNames);
   py::class_<LinkOptions>(m, "LinkOptions", "Heights, distances and limits of the links between cuts.")
       .def(py::init(&make_options),
            py::kw_only(),
@@ -102,6 +93,15 @@ void bind_path(py::module_& m) {
            "cut_length_max, cut_turn_max: what one cut may join; rapid_turn_max: axis motion of one rapid; "
            "depth: what a proven plunge or retract may cut in, the real tip and axis being off by their "
            "deviations.");
+  m.def("pose_between",
+        &between,
+        py::arg("tip"),
+        py::arg("axis"),
+        py::arg("tip_to"),
+        py::arg("axis_to"),
+        py::arg("fraction"),
+        "The pose that far (0 to 1) from one pose to another: tip on the straight line, axis on the great "
+        "circle.");
   m.def(
       "link_passes",
       &link,

@@ -2,6 +2,7 @@
 // docs/strip.md.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -13,6 +14,7 @@ enum class SpacingMeasure : std::uint8_t {
   across,  // seen along the feed: what is left of Q - P without its part along `feed`
   direct,  // |Q - P|
 };
+inline constexpr std::array kSpacingMeasureNames = {"across", "direct"};
 
 struct SpacingRules {
   double wanted = 0;  // mm, positive
