@@ -59,11 +59,11 @@ class Stage:
 
     def __init__(self, view: Any, op: Any, played: Played, nodes: PlaybackNodes) -> None:
         self._nodes = [nodes.root, nodes.part]
-        self._hidden = None
+        self._hidden: tuple[Any, int] | None = None
         if len(played.playback.blocks) > LONG_PATH:
             self._hide(op)
             self._nodes.append(_trail(played))
-        self._scene = _parent(view.getSceneGraph(), op.ViewObject.RootNode)
+        self._scene: Any = _parent(view.getSceneGraph(), op.ViewObject.RootNode)
         self._scene.ref()  # the view may go before us
         places = [self._scene.findChild(obj.ViewObject.RootNode) for obj in op.Document.Objects]
         first = min(place for place in places if place >= 0)
