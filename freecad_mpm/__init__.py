@@ -5,7 +5,7 @@ from __future__ import annotations
 from importlib import import_module
 from typing import Any
 
-from .core.version import __version__
+from .version import __version__
 
 __all__ = ["__version__", "create", "plan"]
 

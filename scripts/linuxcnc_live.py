@@ -123,7 +123,8 @@ def compare(folder, program):
     sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
     import numpy as np
 
-    from freecad_mpm.core import dialects, kinematics, machines
+    from freecad_mpm.core import machine as machines
+    from freecad_mpm.core.control import dialects, kinematics
 
     machine = machines.load(MACHINE)
     motion = dialects.read(program.read_text()).motion()

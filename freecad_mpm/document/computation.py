@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..core.errors import InputError
+from ..core.base import InputError
 from . import hooks
 
 
@@ -17,7 +17,8 @@ def compute(op: Any, job: Any) -> tuple[Any, str]:
 
     Raises InputError (what is wrong with which property), core.errors.Cancelled, NativeModuleMissing."""
     require_native()
-    from ..core import planning, report
+    from ..core import planning
+    from ..core.report import text
     from .job_spec import job_of
     from .model import model_faces
 
@@ -29,7 +30,7 @@ def compute(op: Any, job: Any) -> tuple[Any, str]:
         return planning.plan(spec, faces=part.faces, **watching)
 
     plan = hooks.run(call)
-    return plan, report.text(plan.report)
+    return plan, text.text(plan.report)
 
 
 def require_native() -> None:

@@ -7,11 +7,9 @@ from typing import Any
 
 import FreeCAD
 
-from ..core import tools
-from ..core.errors import Cancelled, InputError
-from ..core.job import DEFAULT_POST
-from ..core.resources import TOOLS
-from ..core.tools import ToolSpec
+from ..core.base import TOOLS, Cancelled, InputError
+from ..core.job import DEFAULT_POST, ToolSpec
+from ..core.job import tool as tools
 from . import compat, hooks, properties
 from .computation import require_native
 from .model import base_of, model_of, picked_faces, public_object

@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 import Part
 
-from ..core.errors import InputError
-from ..core.faces import FaceArrays
+from ..core.base import InputError
+from ..core.part import FaceArrays
 
 # Parameters of a piece of a trimming curve where its distance from the chord is looked at.
 PROBES = (0.25, 0.5, 0.75)
@@ -59,10 +59,10 @@ def _reader_of_this_kernel() -> Any:
     """The native BREP reader, or None when it is missing or was built with another OpenCASCADE than FreeCAD's."""
     try:
         from .. import _occt
-        from ..core import part_file
+        from ..core.part import file
     except ImportError:
         return None
-    return part_file.read_brep_string if _occt.OCC_VERSION == Part.OCC_VERSION else None
+    return file.read_brep_string if _occt.OCC_VERSION == Part.OCC_VERSION else None
 
 
 def _face_arrays(face: Any, name: str, chord_mm: float) -> FaceArrays:

@@ -6,9 +6,9 @@ import re
 from collections.abc import Sequence
 from typing import Any
 
-from ..core import job as core
-from ..core.errors import InputError
-from ..core.tools import Segment
+from ..core import job
+from ..core.base import InputError
+from ..core.job import Segment
 from . import compat
 
 # The job's part comes from the document, not from a file; the name is what messages and reports show.
@@ -35,41 +35,41 @@ SECONDS_PER_MINUTE = 60.0
 PROGRAM_NAME = "MPM{number:02d}"
 
 
-def job_of(op: Any, machined: Sequence[str], check: Sequence[str]) -> core.Job:
+def job_of(op: Any, machined: Sequence[str], check: Sequence[str]) -> job.Job:
     """The job of operation `op` with the names of the faces to machine and to keep clear of.
 
     The set-up frame is FreeCAD's global frame, as in all of CAM. Raises InputError naming the property or the tool.
     """
     name = PART_NAME.format(document=op.Document.Label, operation=op.Label)
-    return core.Job(
-        part=core.Part(file=name, faces=tuple(machined), check_faces=tuple(check)),
+    return job.Job(
+        part=job.Part(file=name, faces=tuple(machined), check_faces=tuple(check)),
         tool=tool_of(op),
         footprint=_footprint(op),
-        method=core.MethodSpec(
+        method=job.MethodSpec(
             name=op.Method,
             spin_deg=op.Spin.Value,
             contact_spacing_mm=op.ContactSpacing.Value,
             spacing_measure=op.SpacingMeasure,
             tilt_max_deg=op.TiltMax.Value,
         ),
-        link=core.LinkSpec(
+        link=job.LinkSpec(
             safe_clearance_mm=op.SafeClearance.Value, approach_distance_mm=op.ApproachDistance.Value
         ),
-        tolerance=core.Tolerance(gouge_mm=op.GougeTolerance.Value, chord_mm=op.ChordTolerance.Value),
-        machine=core.MachineSpec(name=op.Machine),
+        tolerance=job.Tolerance(gouge_mm=op.GougeTolerance.Value, chord_mm=op.ChordTolerance.Value),
+        machine=job.MachineSpec(name=op.Machine),
         post=post_of(op),
         source=op.Label,
     )
 
 
-def tool_of(op: Any) -> core.ToolSpec:
+def tool_of(op: Any) -> job.ToolSpec:
     """The cutter of the operation's tool controller."""
     bit = op.ToolController.Tool
     try:
         radius, corner = compat.torus_of(bit)
     except ValueError as error:
         raise InputError(str(error)) from None
-    return core.ToolSpec(
+    return job.ToolSpec(
         major_radius_mm=radius - corner,
         minor_radius_mm=corner,
         recess_mm=op.Recess.Value,
@@ -79,7 +79,7 @@ def tool_of(op: Any) -> core.ToolSpec:
     )
 
 
-def post_of(op: Any) -> core.PostSpec:
+def post_of(op: Any) -> job.PostSpec:
     """Post, feeds, speed, tool number; a feed or speed that the controller leaves at zero has the core's default."""
     controller = op.ToolController
     given = {
@@ -87,7 +87,7 @@ def post_of(op: Any) -> core.PostSpec:
         "cut_feed_mm_per_min": controller.HorizFeed.Value * SECONDS_PER_MINUTE,
         "plunge_feed_mm_per_min": controller.VertFeed.Value * SECONDS_PER_MINUTE,
     }
-    return core.PostSpec(
+    return job.PostSpec(
         name=op.Post,
         program_name=PROGRAM_NAME.format(number=_number_in(op.Name)),
         tool_number=controller.ToolNumber,
@@ -103,8 +103,8 @@ def in_property_names(message: str, op: Any) -> str:
     return message
 
 
-def _footprint(op: Any) -> core.FootprintSpec:
-    return core.FootprintSpec(
+def _footprint(op: Any) -> job.FootprintSpec:
+    return job.FootprintSpec(
         direction_deg=op.Direction.Value,
         side_step_mm=op.SideStep.Value,
         forward_step_mm=op.ForwardStep.Value,

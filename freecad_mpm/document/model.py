@@ -6,10 +6,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-from ..core.errors import InputError
+from ..core.base import InputError
 
 if TYPE_CHECKING:  # needs the native module, without which picking still answers
-    from ..core.faces import FaceArrays
+    from ..core.part import FaceArrays
 
 FACE = "Face"
 

@@ -7,7 +7,7 @@ from typing import Any
 import FreeCAD
 import Path
 
-from ..core.errors import Cancelled, InputError, one_line
+from ..core.base import Cancelled, InputError, one_line
 from . import compat, properties, results
 from .cl_path import Feeds, to_commands
 from .computation import NativeModuleMissing, compute

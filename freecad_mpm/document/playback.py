@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..core.output import write_together
+from ..core.base import write_together
 from . import compat, program
 from .computation import require_native
 from .job_spec import job_of, tool_of
@@ -16,9 +16,9 @@ from .model import model_faces
 from .results import NO_STATUS
 
 if TYPE_CHECKING:  # needs the native module
-    from ..core.faces import FaceArrays
+    from ..core.job import ToolSpec
+    from ..core.part import FaceArrays
     from ..core.playback import Playback
-    from ..core.tools import ToolSpec
 
 
 @dataclass(frozen=True)
@@ -33,12 +33,14 @@ class Played:
 def played(op: Any) -> Played:
     """The playback of an operation on its own machine. Raises InputError when it has no up-to-date path."""
     require_native()
-    from ..core import playback, shop
+    from ..core.machine import move_machine
+    from ..core.playback import playback
+    from ..core.program import find_shop
 
     program.check_ready(op)
     job = job_of(op, (), ())
-    place = shop.find_shop(job)
-    blocks = shop.move_machine(job, place, program.path_of([op]))
+    place = find_shop(job)
+    blocks = move_machine(job, place.machine, program.path_of([op]))
     made = playback.make_playback(place.machine, blocks, visited(op))
     return Played(made, tool_of(op), _model_box(op))
 
@@ -60,7 +62,7 @@ def write_pictures(op: Any, numbers: Sequence[int], folder: str) -> list[str]:
 
     Returns the files' paths. Works without a window. Raises InputError: no path, no such position, no such folder.
     """
-    from ..core import playback_picture
+    from ..core.pictures import playback as playback_picture
 
     shown = played(op)
     files = playback_picture.of_positions(shown.playback, numbers, part_faces(op), shown.tool)

@@ -7,7 +7,7 @@ import shlex
 from dataclasses import dataclass
 from typing import Any, NoReturn
 
-from ..core.errors import InputError, one_line
+from ..core.base import InputError, one_line
 
 
 @dataclass(frozen=True)

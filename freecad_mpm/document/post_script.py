@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..core.output import write_atomically
+from ..core.base import write_atomically
 from . import compat, post_arguments
 
 TOOLTIP = "Five-axis programs of Multi-Point Finish operations: {}"

@@ -9,13 +9,13 @@ from typing import Any
 import FreeCAD
 import numpy as np
 
-from ..core import posts, shop
-from ..core.errors import InputError
+from ..core import posts
+from ..core.base import InputError, write_atomically
 from ..core.job import Job
-from ..core.machine_path import MachinePath
-from ..core.output import write_atomically
-from ..core.plan import Path
-from ..core.posts.program import Program, ProgramTool
+from ..core.machine import JointPath, feeds, move_machine
+from ..core.path import ToolPath
+from ..core.posts import Program, ProgramTool
+from ..core.program import Shop, describe, find_shop, read_back, told
 from . import cl_path, compat, three_axis
 from .job_spec import job_of, post_of
 from .operation import is_operation
@@ -60,7 +60,7 @@ def program_text(ops: Sequence[Any], post: str, arguments: str = "") -> ProgramT
         check_ready(op)
         _check_machine(ours[0], op)
     job = _job(ours[0], post, parse(arguments))
-    place = shop.find_shop(job)
+    place = find_shop(job)
     parts = [_part(job, place, group) for group in _groups(ops)]
     text = place.post.write(*(part.program for part in parts))
     warnings = [f"{op.Label}: {op.Verdict}" for op in ours if not op.Good]
@@ -115,16 +115,16 @@ def _same_tool(a: Any, b: Any) -> bool:
 class _Part:
     """What is written with one tool."""
 
-    path: Path
-    joints: MachinePath
+    path: ToolPath
+    joints: JointPath
     program: Program
 
 
-def _part(job: Job, place: shop.Shop, ops: Sequence[Any]) -> _Part:
+def _part(job: Job, place: Shop, ops: Sequence[Any]) -> _Part:
     op = ops[0]
     path, feeds = _path(ops) if is_operation(op) else _upright_path(op)
-    joints = shop.move_machine(job, place, path, feeds)
-    program = shop.describe(job, place, joints, _box(op))
+    joints = move_machine(job, place.machine, path, feeds)
+    program = describe(job, place, joints, _box(op))
     coolant = COOLANT[getattr(op, "CoolantMode", "None")]
     controller = op.ToolController
     tool = ProgramTool(controller.ToolNumber, *compat.radii_of(controller.Tool))
@@ -133,35 +133,35 @@ def _part(job: Job, place: shop.Shop, ops: Sequence[Any]) -> _Part:
     return _Part(path, joints, replace(program, tool=tool, spindle_rpm=spindle, options=options))
 
 
-def _findings(text: str, job: Job, place: shop.Shop, parts: Sequence[_Part]) -> list[str]:
+def _findings(text: str, job: Job, place: Shop, parts: Sequence[_Part]) -> list[str]:
     """What reading the text back brings to light."""
     tip, axis = (np.concatenate([getattr(part.path, name) for part in parts]) for name in ("tip", "axis"))
-    _, checks = shop.read_back(text, job, place.machine, tip, axis, place.post.dialect)
-    return shop.told(checks.findings)
+    _, checks = read_back(text, job, place.machine, tip, axis, place.post.dialect)
+    return told(checks.findings)
 
 
-def path_of(ops: Sequence[Any]) -> Path:
+def path_of(ops: Sequence[Any]) -> ToolPath:
     """The stored moves of our operations as the core's path, in their order."""
     return _path(ops)[0]
 
 
-def _path(ops: Sequence[Any]) -> tuple[Path, np.ndarray]:
+def _path(ops: Sequence[Any]) -> tuple[ToolPath, np.ndarray]:
     """The stored moves of our operations, in their order, as the core's path, and their feeds."""
     moves = [cl_path.from_commands(op.Path.Commands) for op in ops]
     joined = {name: np.concatenate([getattr(one, name) for one in moves]) for name in ("kind", "tip", "axis")}
-    feeds = np.concatenate([shop.feeds(post_of(op), one.kind) for op, one in zip(ops, moves)])
+    feeds = np.concatenate([feeds(post_of(op), one.kind) for op, one in zip(ops, moves)])
     return _as_path(**joined), feeds
 
 
-def _upright_path(op: Any) -> tuple[Path, np.ndarray]:
+def _upright_path(op: Any) -> tuple[ToolPath, np.ndarray]:
     """The moves of one of CAM's own operations, and their feeds."""
     moves = three_axis.moves_of(op.Label, op.Path.Commands)
     return _as_path(moves.kind, moves.tip, moves.axis), moves.feed_mm_per_min
 
 
-def _as_path(kind: np.ndarray, tip: np.ndarray, axis: np.ndarray) -> Path:
+def _as_path(kind: np.ndarray, tip: np.ndarray, axis: np.ndarray) -> ToolPath:
     count = len(kind)
-    return Path(
+    return ToolPath(
         kind=kind,
         tip=tip,
         axis=axis,

@@ -27,15 +27,15 @@ class Property:
 
 # The choices come from the core, imported only when a property is made: a document must open without the native module.
 def _methods() -> list[str]:
-    from ..core.planning import method_names
+    from ..core.positioning import method_names
 
     return method_names()
 
 
 def _machines() -> list[str]:
-    from ..core import machines
+    from ..core import machine
 
-    return machines.names()
+    return machine.names()
 
 
 def _posts() -> list[str]:

@@ -9,8 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..core.errors import InputError
-from ..core.plan import Floats, Names
+from ..core.base import Floats, InputError, Names
 
 SECONDS_PER_MINUTE = 60.0  # CAM's feeds are per second
 ARC_TOLERANCE_MM = 0.002  # of a chord from its arc

@@ -15,8 +15,7 @@ import FreeCAD
 import Mesh
 import numpy as np
 
-from ..core.errors import blame
-from ..core.output import write_atomically
+from ..core.base import blame, write_atomically
 from . import compat, hooks, program
 from .computation import require_native
 from .job_spec import job_of
@@ -24,8 +23,8 @@ from .model import model_faces
 from .properties import HIDDEN, READ_ONLY, Property
 
 if TYPE_CHECKING:  # needs the native module
-    from ..core.cutting import Cut
-    from ..core.model import Scene
+    from ..core.part import Scene
+    from ..core.removal import Cut
 
 NAME, STOCK = "Verification", "MachinedStock"
 STOCK_LABEL = "Machined stock of {}"
@@ -148,16 +147,17 @@ def verify(op: Any, resolution_mm: float | None = None) -> Any:
     Shows progress where there is a window. Raises InputError: no up-to-date path; Cancelled: nothing is changed.
     """
     require_native()
-    from ..core import cut_memory, cutting
+    from ..core import removal
+    from ..core.removal import memory
 
     program.check_ready(op)
     scene = scene_of(op)
-    resolution = resolution_mm or cutting.default_resolution_mm(scene)
+    resolution = resolution_mm or removal.default_resolution_mm(scene)
     with blame("Resolution:"):
-        takes = cut_memory.check(scene, resolution)
+        takes = memory.check(scene, resolution)
     FreeCAD.Console.PrintMessage(f"{op.Label}: {takes}\n")
     path = program.path_of([op])
-    cut = hooks.run(lambda **watching: cutting.cut(scene, path, resolution, **watching))
+    cut = hooks.run(lambda **watching: removal.cut(scene, path, resolution, **watching))
     result = result_of(op) or _make(op)
     _fill(result, op, cut)
     result.Document.recompute([result, result.Stock])
@@ -175,7 +175,7 @@ def is_result(obj: Any) -> bool:
 
 def scene_of(op: Any) -> Scene:
     """The operation's faces and tool; part and set-up frame are FreeCAD's global frame."""
-    from ..core.model import build_scene
+    from ..core.part import build_scene
 
     part = model_faces(compat.utils.findParentJob(op), op.Base, op.GougeTolerance.Value)
     return build_scene(job_of(op, part.machined, part.check), part.faces)
@@ -183,10 +183,11 @@ def scene_of(op: Any) -> Scene:
 
 def allowed_depth_mm(op: Any) -> float:
     """How deep the operation's tolerances let a cut be."""
-    from ..core import planning, verdict
+    from ..core import positioning
+    from ..core.job import budget
 
     job = job_of(op, (), ())
-    return verdict.cut_depth_mm(job.tolerance, planning.guarantee_of(job))
+    return budget.cut_depth_mm(job.tolerance, positioning.guarantee_of(job))
 
 
 def deviation_of(result: Any) -> Deviation:
@@ -208,10 +209,11 @@ def position_at(op: Any, move: int) -> int:
 
 def write_picture(result: Any, path: str) -> None:
     """Write the deviation map as PNG, whole or not at all. Works without a window."""
-    from ..core import deviation_bands, deviation_picture
+    from ..core.pictures import deviation
+    from ..core.removal import bands as deviation_bands
 
     found = deviation_of(result)
-    shown = deviation_picture.Map(
+    shown = deviation.Map(
         found.points,
         found.triangles,
         found.deviation_mm,
@@ -220,13 +222,13 @@ def write_picture(result: Any, path: str) -> None:
         result.Resolution.Value,
     )
     bands = deviation_bands.bands(result.Tolerance.Value)
-    png = deviation_picture.render(shown, bands, result.Label)
+    png = deviation.render(shown, bands, result.Label)
     write_atomically(path, png)
 
 
 def _extremes(result: Any) -> list[Any]:
     """The worst places as `cutting.Worst` has them."""
-    from ..core.cutting import Extreme
+    from ..core.removal import Extreme
 
     found = []
     for name in WORST:
@@ -252,8 +254,8 @@ def _make(op: Any) -> Any:
 
 
 def _fill(result: Any, op: Any, cut: Cut) -> None:
-    from ..core import deviation_bands
-    from ..core.cutting import NOT_CUT
+    from ..core.removal import NOT_CUT
+    from ..core.removal import bands as deviation_bands
 
     found, worst = cut.deviation, cut.worst()
     tolerance = allowed_depth_mm(op)
@@ -289,7 +291,7 @@ def _store(result: Any, found: Any, aside: Any) -> None:
 
 def _mesh(cut: Cut) -> Any:
     """As FreeCAD's mesh, by way of a file: a list of facets would take minutes."""
-    from ..core import mesh_file
+    from ..core.removal import mesh_file
 
     with tempfile.TemporaryDirectory() as folder:
         file = FilePath(folder) / "stock.ply"

@@ -8,7 +8,7 @@ import FreeCAD
 import FreeCADGui
 from PySide import QtGui
 
-from ..core.errors import Cancelled, InputError, one_line
+from ..core.base import Cancelled, InputError, one_line
 from . import icons
 
 TITLE = "Multi-Point Machining"

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from pivy import coin
 
-from ..core import deviation_bands
-from ..core.deviation_bands import Bands
+from ..core.removal import Bands
+from ..core.removal import bands as deviation_bands
 from ..document.verification import Deviation
 from .toolpath_nodes import unlit, unpickable
 

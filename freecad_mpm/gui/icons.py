@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..core.resources import RESOURCES
+from ..core.base import RESOURCES
 
 
 def path(name: str) -> str:

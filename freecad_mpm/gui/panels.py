@@ -10,8 +10,7 @@ import FreeCAD
 import FreeCADGui
 from PySide import QtCore, QtGui
 
-from ..core.errors import InputError
-from ..core.resources import FORMS
+from ..core.base import FORMS, InputError
 
 
 class ClosingPanel:

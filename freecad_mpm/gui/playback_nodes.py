@@ -8,9 +8,11 @@ from typing import Any
 import numpy as np
 from pivy import coin
 
-from ..core import machine_bodies, machine_motion, tool_solid
-from ..core.playback_style import TOOL_COLOURS, colour_of, table_letters
-from ..core.tool_solid import Mesh
+from ..core.playback import TOOL_COLOURS, Mesh
+from ..core.playback import bodies as machine_motion
+from ..core.playback import colour_of
+from ..core.playback import sketch as machine_bodies
+from ..core.playback import table_letters, tool_solid
 from ..document.playback import Played
 from .toolpath_nodes import CUT_COLORS, Lines, unlit, unpickable
 

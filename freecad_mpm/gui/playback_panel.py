@@ -9,7 +9,7 @@ import FreeCAD
 import FreeCADGui
 from PySide import QtCore, QtGui
 
-from ..core.errors import InputError, one_line
+from ..core.base import InputError, one_line
 from ..core.playback import describe
 from ..document.playback import Played, played
 from . import panels

@@ -8,8 +8,8 @@ from typing import Any
 import FreeCADGui
 from PySide import QtCore, QtGui
 
-from ..core import deviation_bands
-from ..core.errors import Cancelled, InputError
+from ..core.base import Cancelled, InputError
+from ..core.removal import bands as deviation_bands
 from ..document import verification
 from ..document.playback import Played, played
 from . import panels

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..core import deviation_bands
+from ..core.removal import bands
 from ..document import compat
 from ..document.verification import deviation_of
 from . import icons
@@ -31,7 +31,7 @@ class VerificationViewProvider(compat.Stateless):
 
     def _draw(self, obj: Any) -> None:
         if getattr(obj, "Data", ""):
-            self.nodes.show(deviation_of(obj), deviation_bands.bands(obj.Tolerance.Value))
+            self.nodes.show(deviation_of(obj), bands.bands(obj.Tolerance.Value))
 
     def getDisplayModes(self, vobj: Any) -> list[str]:
         return [DISPLAY_MODE]

@@ -192,15 +192,97 @@ def python_imports_follow_the_table(root: Path) -> Violations:
     return found
 
 
-def reader_never_uses_the_writers(root: Path) -> Violations:
-    """What program_reader and dialects import, directly or not, holds no module of posts/ but the description."""
-    files = {module_name(root, path): path for path in (root / "freecad_mpm").rglob("*.py")}
-    reached: set[str] = set()
-    waiting = [
-        name
-        for name in files
-        if name == "freecad_mpm.core.program_reader" or name.startswith("freecad_mpm.core.dialects")
+# ---------------------------------------------------------------------------------------- rooms of core
+
+CORE = "freecad_mpm.core"
+
+
+def core_rooms(document: str) -> dict[str, set[str]]:
+    """Room -> rooms it may use, from the table `room | charter | may use`; `all`: every room above it."""
+    rooms: dict[str, set[str]] = {}
+    for name, _, cell in (row for row in table_rows(document, 3) if re.fullmatch(r"`[a-z]+`", row[0])):
+        words = {word.strip() for word in cell.split(",")} - {"–"}
+        allowed = set(rooms) if words == {"all"} else words
+        if not allowed <= set(rooms):
+            raise ValueError(f"docs/architecture.md: {name} may use {allowed - set(rooms)}, not above it")
+        rooms[name.strip("`")] = allowed
+    return rooms
+
+
+def rooms_of(root: Path) -> dict[str, set[str]]:
+    return core_rooms((root / "docs/architecture.md").read_text())
+
+
+def room_imports(root: Path) -> list[tuple[Path, str, list[str]]]:
+    """File, name of a room, and what of it the file imports, for all files of the package outside of that room."""
+    found = []
+    for path in sorted((root / "freecad_mpm").rglob("*.py")):
+        own = path.relative_to(root / "freecad_mpm").parts
+        for name in sorted(imports(root, path)):
+            words = name.split(".")
+            if within(name, {CORE}) and len(words) > 2 and own[:2] != ("core", words[2]):
+                found.append((path, words[2], words[3:]))
+    return found
+
+
+def rooms_follow_the_table(root: Path) -> Violations:
+    allowed = rooms_of(root)
+    core = root / "freecad_mpm/core"
+    found, used = [], set()
+    for path, room, _ in room_imports(root):
+        if core in path.parents and path.parent != core:
+            own = path.relative_to(core).parts[0]
+            used.add((own, room))
+            found += [] if room in allowed.get(own, ()) else [f"{path}: {own} must not use {room}"]
+    unused = {(own, room) for own in allowed for room in allowed[own]} - used
+    return found + [
+        f"docs/architecture.md: nothing in {own} uses {room}"
+        for own, room in sorted(unused)
+        if own != "commands"
     ]
+
+
+def door_names(root: Path, room: str) -> set[str]:
+    """What the room's door offers: its `__all__`."""
+    door = root / "freecad_mpm/core" / room / "__init__.py"
+    for node in ast.parse(door.read_text()).body:
+        if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "__all__":
+            return set(ast.literal_eval(node.value))
+    return set()
+
+
+def doors_are_used(root: Path) -> Violations:
+    """Nobody reaches behind a room's door."""
+    names = {room: door_names(root, room) for room in rooms_of(root)}
+    return [
+        f"{path}: {room}.{'.'.join(rest)} is not in the room's door"
+        for path, room, rest in room_imports(root)
+        if rest and (len(rest) > 1 or rest[0] not in names.get(room, ()))
+    ]
+
+
+# The kinematics of the checks, and who may use them beside `control`: what shows a program, never what makes one.
+CHECKERS_KINEMATICS = f"{CORE}.control.kinematics"
+MAY_USE_KINEMATICS = {f"{CORE}.program.report", f"{CORE}.playback.playback"}
+
+
+def checks_share_nothing_with_the_writer(root: Path) -> Violations:
+    """`control` never reaches `posts`, and nothing that makes a path or a program uses the checker's kinematics."""
+    files = {module_name(root, path): path for path in (root / "freecad_mpm").rglob("*.py")}
+    reached = sorted(reached_from(root, files, f"{CORE}.control"))
+    writers = [module for module in reached if within(module, {f"{CORE}.posts"})]
+    found = [f"{files[module]}: control reaches this writer" for module in writers[:1]]
+    for module, path in sorted(files.items()):
+        free = within(module, {f"{CORE}.control"} | MAY_USE_KINEMATICS)
+        if not free and any(within(name, {CHECKERS_KINEMATICS}) for name in imports(root, path)):
+            found.append(f"{path}: must not use the kinematics of the checks")
+    return found
+
+
+def reached_from(root: Path, files: dict[str, Path], room: str) -> set[str]:
+    """All modules that the modules of a room import, directly or not."""
+    reached: set[str] = set()
+    waiting = [name for name in files if within(name, {room})]
     while waiting:
         module = waiting.pop()
         if module in reached or module not in files:
@@ -208,12 +290,7 @@ def reader_never_uses_the_writers(root: Path) -> Violations:
         reached.add(module)
         for name in imports(root, files[module]):
             waiting += [name, name.rpartition(".")[0]]  # `from a import b`: b may be a module or a name in a
-    allowed = {"freecad_mpm.core.posts.program"}
-    return [
-        f"{files[module]}: program_reader reaches this writer"
-        for module in sorted(reached - allowed)
-        if module.startswith("freecad_mpm.core.posts.")
-    ]
+    return reached
 
 
 # ---------------------------------------------------------------------------------------- the whole tree

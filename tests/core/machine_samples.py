@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from freecad_mpm.core import machines
-from freecad_mpm.core.machine_path import machine_path
-from freecad_mpm.core.posts.program import Program, ProgramTool
+from freecad_mpm.core import machine as machines
+from freecad_mpm.core.machine import joint_path
+from freecad_mpm.core.posts import Program, ProgramTool
 
 AXIS_TOLERANCE_DEG, TIP_TOLERANCE_MM = 0.02, 0.0025
 
@@ -41,7 +41,7 @@ def program_of(kind, tip, axis, feed, machine=None, tcp=True, **changes):
     """tcp: False: a program of joint positions, its tip within TIP_TOLERANCE_MM of its lines."""
     machine = machine or dmu80p()
     tip_tolerance = None if tcp else TIP_TOLERANCE_MM
-    moves = machine_path(
+    moves = joint_path(
         machine, kind, tip, axis, feed, axis_tolerance_deg=AXIS_TOLERANCE_DEG, tip_tolerance_mm=tip_tolerance
     )
     setup = machine.setup

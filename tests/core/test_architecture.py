@@ -1,5 +1,6 @@
 """The checkout keeps the rules of docs/architecture.md, and each rule catches what it forbids."""
 
+import subprocess
 from collections.abc import Callable
 from pathlib import Path
 
@@ -27,6 +28,14 @@ TABLE = """
 | `freecad_mpm.core` | no FreeCAD | `_core`, numpy |
 | `freecad_mpm.document` | FreeCAD App | `core`, FreeCAD |
 | `freecad_mpm.gui` | window | `document`, `core`, FreeCAD, FreeCADGui, Qt |
+
+| room | charter | may use |
+|---|---|---|
+| `base` | low | – |
+| `machine` | joints | base |
+| `posts` | writers | base, machine |
+| `control` | readers | machine |
+| `program` | both | machine, posts, control |
 """
 
 # rule, file, text that it must object to
@@ -58,9 +67,32 @@ FORBIDDEN = [
     (rules.python_imports_follow_the_table, "freecad_mpm/core/a.py", "import scipy.optimize"),
     (rules.python_imports_follow_the_table, "freecad_mpm/document/a.py", "from freecad_mpm import gui"),
     (rules.python_imports_follow_the_table, "freecad_mpm/document/a.py", "import FreeCADGui"),
-    (rules.reader_never_uses_the_writers, "freecad_mpm/core/program_reader.py", "from .posts import dmu80p"),
-    (rules.reader_never_uses_the_writers, "freecad_mpm/core/program_reader.py", "from . import helper"),
-    (rules.reader_never_uses_the_writers, "freecad_mpm/core/dialects/apt.py", "from ..posts import dmu80p"),
+    (rules.rooms_follow_the_table, "freecad_mpm/core/machine/a.py", "from ..posts import load"),
+    (rules.rooms_follow_the_table, "freecad_mpm/core/novel/a.py", "from ..base import InputError"),
+    (
+        rules.rooms_follow_the_table,
+        "docs/architecture.md",
+        TABLE.replace("readers | machine", "readers | base, machine"),
+    ),
+    (rules.doors_are_used, "freecad_mpm/core/program/a.py", "from ..posts.dmu80p import write"),
+    (rules.doors_are_used, "freecad_mpm/document/a.py", "from ..core.machine import secret"),
+    (rules.doors_are_used, "freecad_mpm/gui/a.py", "from ..core.posts import dmu80p"),
+    (rules.checks_share_nothing_with_the_writer, "freecad_mpm/core/control/a.py", "from ..posts import load"),
+    (
+        rules.checks_share_nothing_with_the_writer,
+        "freecad_mpm/core/control/kinematics.py",
+        "from .. import program",
+    ),
+    (
+        rules.checks_share_nothing_with_the_writer,
+        "freecad_mpm/core/program/a.py",
+        "from ..control import kinematics",
+    ),
+    (
+        rules.checks_share_nothing_with_the_writer,
+        "freecad_mpm/document/a.py",
+        "from ..core.control import kinematics",
+    ),
     (rules.stands_alone, "notes/a.md", "see ../shared/design.md"),
     (rules.stands_alone, "dev", "cat /work/notes"),
 ]
@@ -94,18 +126,15 @@ ALLOWED = [
     (
         rules.python_imports_follow_the_table,
         "freecad_mpm/core/posts/a.py",
-        "from .. import job\nfrom . import program",
+        "from .. import base\nfrom . import program",
     ),
     (
         rules.python_imports_follow_the_table,
         "freecad_mpm/gui/a.py",
         "import FreeCADGui\nfrom ..document import b",
     ),
-    (
-        rules.reader_never_uses_the_writers,
-        "freecad_mpm/core/program_reader.py",
-        "from .posts.program import Block",
-    ),
+    (rules.doors_are_used, "freecad_mpm/core/program/a.py", "from .. import posts\nfrom ..posts import load"),
+    (rules.checks_share_nothing_with_the_writer, "freecad_mpm/core/control/a.py", "from . import kinematics"),
     (rules.stands_alone, "tests/core/test_a.py", 'DATA = "../shared/data"'),
     (rules.stands_alone, "notes/a.md", "a shared vocabulary"),
 ]
@@ -122,10 +151,14 @@ def checkout(tmp_path: Path) -> Path:
     """A tiny checkout that keeps all rules."""
     for name, text in {
         "docs/architecture.md": TABLE,
-        "freecad_mpm/core/program_reader.py": "import re",
-        "freecad_mpm/core/helper.py": "from .posts.dmu80p import write",
-        "freecad_mpm/core/posts/dmu80p.py": "from .program import Program",
-        "freecad_mpm/core/posts/program.py": "class Program: ...",
+        "freecad_mpm/core/base/__init__.py": "__all__ = ['x']",
+        "freecad_mpm/core/machine/__init__.py": "from ..base import x\n__all__ = ['load']",
+        "freecad_mpm/core/posts/__init__.py": "from .dmu80p import load\n__all__ = ['load']",
+        "freecad_mpm/core/posts/dmu80p.py": "from .. import base, machine",
+        "freecad_mpm/core/control/__init__.py": "from . import kinematics\n__all__ = ['kinematics']",
+        "freecad_mpm/core/control/kinematics.py": "from .. import machine",
+        "freecad_mpm/core/program/__init__.py": "from .both import both\n__all__ = ['both']",
+        "freecad_mpm/core/program/both.py": "from .. import control, machine, posts",
     }.items():
         put(tmp_path, name, text)
     return tmp_path
@@ -173,6 +206,32 @@ def test_the_package_table_is_read_whole() -> None:
     assert layers["core"] == {"freecad_mpm.core", "freecad_mpm._core", "numpy"}
     assert {"FreeCAD", "Part", "freecad_mpm.core"} <= layers["document"]
     assert layers["_occt"] == {"freecad_mpm._occt"}
+
+
+def test_the_room_table_is_read_whole() -> None:
+    rooms = rules.core_rooms(TABLE)
+    assert rooms["program"] == {"machine", "posts", "control"}
+    assert rooms["base"] == set()
+    with pytest.raises(ValueError, match="later"):
+        rules.core_rooms(TABLE + "| `early` | x | later |\n")
+
+
+@pytest.mark.parametrize("room", rules.rooms_of(ROOT))
+def test_every_room_has_a_door_that_says_what_it_is_for(room: str) -> None:
+    door = (ROOT / "freecad_mpm/core" / room / "__init__.py").read_text()
+    assert "To add " in (rules.ast.get_docstring(rules.ast.parse(door)) or "")
+    assert rules.door_names(ROOT, room)
+
+
+def test_every_room_of_the_table_is_there_and_nothing_else() -> None:
+    folders = {path.parent.name for path in (ROOT / "freecad_mpm/core").glob("*/__init__.py")}
+    assert folders == set(rules.rooms_of(ROOT))
+
+
+@pytest.mark.parametrize("room", ["base", "job"])
+def test_the_room_opens_without_the_native_module(room: str) -> None:
+    block = "import sys; sys.modules['freecad_mpm._core'] = sys.modules['freecad_mpm._occt'] = None; "
+    subprocess.run(["/usr/bin/python3", "-c", f"{block}import freecad_mpm.core.{room}"], cwd=ROOT, check=True)
 
 
 def test_every_module_of_the_table_is_there_and_nothing_else() -> None:

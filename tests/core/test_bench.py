@@ -8,20 +8,13 @@ import numpy as np
 import pytest
 
 from freecad_mpm import _core
-from freecad_mpm.core import (
-    bench,
-    bench_degrees,
-    bench_picture,
-    bench_scaling,
-    bench_summary,
-    markers,
-    planning,
-)
-from freecad_mpm.core.bench import Row
-from freecad_mpm.core.bench_summary import Table
-from freecad_mpm.core.errors import InputError
-from freecad_mpm.core.faces import FaceArrays, to_core
-from freecad_mpm.core.stages import Stages
+from freecad_mpm.core.base import InputError, Stages, pages
+from freecad_mpm.core.bench import comparison, degrees, picture, scaling, summary
+from freecad_mpm.core.bench.comparison import Row
+from freecad_mpm.core.bench.summary import Table
+from freecad_mpm.core.part import FaceArrays, prepare
+from freecad_mpm.core.part.faces import to_core
+from freecad_mpm.core.positioning import method_names
 
 ROOT = Path(__file__).resolve().parents[2]
 README, COMPARISON = ROOT / "README.md", ROOT / "docs" / "comparison.md"
@@ -32,11 +25,11 @@ TIMES = ("time", "µs a position", "index, s", "times the base")
 @pytest.fixture(scope="module")
 def rows() -> list[Row]:
     """Two methods on all three surfaces, one thread."""
-    return [bench.measure(run) for run in bench.runs(None, SUBSET, 1)]
+    return [comparison.measure(run) for run in comparison.runs(None, SUBSET, 1)]
 
 
 def table_in(page: Path, name: str) -> list[dict[str, str]]:
-    block = markers.block(page.read_text(), name)
+    block = pages.block(page.read_text(), name)
     assert block, f"{page.name} has no block {name}"
     lines = [[cell.strip() for cell in line.strip("|").split("|")] for line in block.splitlines()]
     return [dict(zip(lines[0], line)) for line in lines[2:]]
@@ -54,8 +47,8 @@ def as_lines(table: Table) -> list[dict[str, str]]:
 def test_the_page_holds_what_a_run_counts(rows: list[Row], page: Path, name: str) -> None:
     """Written by `bench --threads 1 --markdown README.md docs/comparison.md`; times aside, it must not be stale."""
     printed = table_in(page, name)
-    assert [line["method"] for line in printed] == [f"`{method}`" for method in planning.method_names()]
-    now = as_lines(bench_summary.blocks(rows, [])[name])
+    assert [line["method"] for line in printed] == [f"`{method}`" for method in method_names()]
+    now = as_lines(summary.blocks(rows, [])[name])
     assert list(printed[0]) == list(now[0])
     for line in now:
         theirs = next(one for one in printed if one["method"] == line["method"])
@@ -64,11 +57,11 @@ def test_the_page_holds_what_a_run_counts(rows: list[Row], page: Path, name: str
 
 def test_the_pages_hold_every_claim_and_every_case() -> None:
     claims = [line["claim"] for line in table_in(COMPARISON, "claims")]
-    names = [*bench.DEFAULT_SURFACES, *(f"bi-degree {degree}" for degree in bench_degrees.DEGREES)]
+    names = [*comparison.DEFAULT_SURFACES, *(f"bi-degree {degree}" for degree in degrees.DEGREES)]
     assert claims[: len(names)] == [f"{name}: fewer than 5 seeds and 20 iterations" for name in names]
     assert len(claims) == len(names) + 2
     cases = {line["what"]: line for line in table_in(COMPARISON, "scaling")}
-    assert list(cases) == [case.name for case in bench_scaling.cases()]
+    assert list(cases) == [case.name for case in scaling.cases()]
     cells = {name: int(line["cells"]) for name, line in cases.items()}
     assert cells["coarse tolerance"] < cells["thesis' footprint"] < cells["fine tolerance"]
 
@@ -109,8 +102,8 @@ def test_certificates_of_poses_agree_with_a_floor() -> None:
 
 @pytest.mark.parametrize("poles", [(7, 12), (4, 9)])
 def test_a_refined_surface_is_the_same_surface(poles: tuple[int, int]) -> None:
-    face = bench_degrees.wave(3)
-    fine = bench_scaling.refine(face, poles)
+    face = degrees.wave(3)
+    fine = scaling.refine(face, poles)
     assert fine.poles.shape == (*poles, 3)
     u, v = np.random.default_rng(3).uniform(size=(2, 50))
     one, two = (
@@ -120,10 +113,10 @@ def test_a_refined_surface_is_the_same_surface(poles: tuple[int, int]) -> None:
     assert one == pytest.approx(two, abs=1e-9)
 
 
-@pytest.mark.parametrize("degree", bench_degrees.DEGREES)
+@pytest.mark.parametrize("degree", degrees.DEGREES)
 def test_the_surfaces_by_degree_have_it_both_ways(degree: int) -> None:
     """The derivative of that order along a parameter line is constant and not zero: no lower degree would do."""
-    face = bench_degrees.wave(degree)
+    face = degrees.wave(degree)
     assert face.poles.shape == (degree + 1, degree + 1, 3)
     for direction in (0, 1):
         highest = np.diff(face.poles[..., 2], n=degree, axis=direction)
@@ -131,25 +124,25 @@ def test_the_surfaces_by_degree_have_it_both_ways(degree: int) -> None:
 
 
 def test_the_picture_is_one(rows: list[Row]) -> None:
-    assert bench_picture.draw(rows).startswith(b"\x89PNG")
+    assert picture.draw(rows).startswith(b"\x89PNG")
 
 
 def test_blocks_are_replaced_and_a_page_without_any_is_named(tmp_path: Path) -> None:
     page = "a\n<!-- begin x -->\nold\n<!-- end x -->\nb\n<!-- begin y -->\n<!-- end y -->\n"
-    now = markers.replaced(page, {"x": "new \\1", "z": "other"}, "page.md")
+    now = pages.replaced(page, {"x": "new \\1", "z": "other"}, "page.md")
     assert now == page.replace("old", "new \\1")
-    assert markers.replaced(now, {"x": "new \\1"}, "page.md") == now
+    assert pages.replaced(now, {"x": "new \\1"}, "page.md") == now
     with pytest.raises(InputError, match="page.md: has none of the blocks <!-- begin z -->"):
-        markers.replaced(page, {"z": "other"}, "page.md")
+        pages.replaced(page, {"z": "other"}, "page.md")
     with pytest.raises(InputError, match="nowhere.md: cannot be read"):
-        markers.read(str(tmp_path / "nowhere.md"))
+        pages.read(str(tmp_path / "nowhere.md"))
 
 
 def test_a_row_counts_its_failures() -> None:
-    (run,) = bench.runs(["concave"], ["dtm"], 1)
+    (run,) = comparison.runs(["concave"], ["dtm"], 1)
     stages = Stages(threads=1)
-    few = planning.prepare(run.job, None, stages)
-    row, positions = bench.timed(run, few, stages)
+    few = prepare(run.job, None, stages)
+    row, positions = comparison.timed(run, few, stages)
     assert (
         row["failures"] == np.count_nonzero(~positions.usable) == 288
     )  # as an independent re-implementation

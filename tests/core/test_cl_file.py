@@ -8,10 +8,9 @@ from pathlib import Path as FilePath
 import numpy as np
 import pytest
 
-from freecad_mpm.core import cl_file
-from freecad_mpm.core.apt import to_apt
-from freecad_mpm.core.errors import InputError
-from freecad_mpm.core.plan import Path, Positions
+from freecad_mpm.core.base import InputError
+from freecad_mpm.core.path import ToolPath, cl_file, to_apt
+from freecad_mpm.core.positioning import Positions
 
 DESIGN_HEADER = (
     "pass,index,kind,status,tip_x,tip_y,tip_z,axis_x,axis_y,axis_z,p_x,p_y,p_z,q_x,q_y,q_z,tilt_deg,spin_deg,"
@@ -44,12 +43,12 @@ def positions() -> Positions:
 
 
 @pytest.fixture
-def path(positions: Positions) -> Path:
+def path(positions: Positions) -> ToolPath:
     """Rapid, plunge, two cuts, retract; rapid, plunge, cut."""
     position = np.array([-1, 0, 1, 2, -1, -1, 3, 4])
     lift = np.where(position < 0, 50.0, 0.0)[:, None] * [0, 0, 1]
     nearest = np.array([0, 0, 1, 2, 2, 3, 3, 4])
-    return Path(
+    return ToolPath(
         kind=np.array(["rapid", "plunge", "cut", "cut", "retract", "rapid", "plunge", "cut"]),
         tip=positions.tip[nearest] + lift,
         axis=positions.axis[nearest],
@@ -61,7 +60,7 @@ def path(positions: Positions) -> Path:
     )
 
 
-def test_every_position_is_one_row_of_kind_cut(positions: Positions, path: Path) -> None:
+def test_every_position_is_one_row_of_kind_cut(positions: Positions, path: ToolPath) -> None:
     lines = cl_file.to_csv(positions, path).splitlines()
     assert lines[0] == DESIGN_HEADER
     rows = [line.split(",") for line in lines[1:]]
@@ -82,7 +81,7 @@ def test_every_position_is_one_row_of_kind_cut(positions: Positions, path: Path)
     assert all(row[1] == "-1" and not any(row[3:4] + row[10:]) for row in others)
 
 
-def test_numbers_have_nine_decimals_and_missing_ones_are_empty(positions: Positions, path: Path) -> None:
+def test_numbers_have_nine_decimals_and_missing_ones_are_empty(positions: Positions, path: ToolPath) -> None:
     positions = replace(positions, spin_deg=np.full(5, -1e-12))
     cuts = [line.split(",") for line in cl_file.to_csv(positions, path).splitlines() if ",cut," in line]
     assert cuts[1][13:16] == ["", "", ""]
@@ -92,7 +91,7 @@ def test_numbers_have_nine_decimals_and_missing_ones_are_empty(positions: Positi
     assert all(len(cell.partition(".")[2]) == 9 for cell in cuts[0][4:18])
 
 
-def test_there_and_back(positions: Positions, path: Path, tmp_path: FilePath) -> None:
+def test_there_and_back(positions: Positions, path: ToolPath, tmp_path: FilePath) -> None:
     file = tmp_path / "cl.csv"
     file.write_text(cl_file.to_csv(positions, path))
     moves = cl_file.read_csv(file)
@@ -141,7 +140,7 @@ def test_binary_and_missing_files_are_refused(tmp_path: FilePath) -> None:
         cl_file.read_csv(tmp_path / "nothing.csv")
 
 
-def test_apt_holds_every_move_and_a_feed_wherever_it_changes(path: Path) -> None:
+def test_apt_holds_every_move_and_a_feed_wherever_it_changes(path: ToolPath) -> None:
     feeds = {"cut": 1000.0, "link": 1000.0, "plunge": 300.0, "retract": 300.0}
     lines = to_apt(path, "TEST", radius_mm=12.7, corner_radius_mm=6.0, feeds=feeds).splitlines()
     assert lines[0] == "PARTNO TEST" and lines[-1] == "FINI"

@@ -11,12 +11,11 @@ import numpy as np
 import pytest
 
 from freecad_mpm import _core
-from freecad_mpm.core import cut_memory, cutting, planning
-from freecad_mpm.core.errors import Cancelled
-from freecad_mpm.core.faces import FaceArrays
-from freecad_mpm.core.frame import Frame
+from freecad_mpm.core import planning, removal
+from freecad_mpm.core.base import Cancelled
 from freecad_mpm.core.job import Job, Part, ToolSpec
-from freecad_mpm.core.model import Scene, build_scene
+from freecad_mpm.core.part import FaceArrays, Frame, Scene, build_scene
+from freecad_mpm.core.removal import memory
 
 BALL_MM = 5.0
 # More stock than the faces' own box, which ends on them.
@@ -60,7 +59,7 @@ def test_scallops_on_an_inclined_plane_have_their_closed_form(slope: float) -> N
     scallop = BALL_MM - np.sqrt(BALL_MM**2 - step**2 / 4)
     errors = []
     for resolution in (2.0, 0.5, 0.2):
-        cut = cutting.cut(
+        cut = removal.cut(
             scene_of(plane(slope)), passes_over(slope, side_step), resolution, box=BOX, with_stock=False
         )
         values = cut.deviation.deviation_mm
@@ -97,15 +96,15 @@ def test_scallops_in_a_spherical_pocket_have_their_closed_form() -> None:
     lean, half = (first + second) / 2, (second - first) / 2
     lean, half = np.append(lean, 0.0), np.append(half, 0.0)
     normals = -np.column_stack([np.sin(lean), np.zeros(len(lean)), -np.cos(lean)])
-    box = cutting.Box(np.full(3, -bowl), np.array([bowl, bowl, 0.0]))
-    height, _ = cutting.cut_rays(sweep, -bowl * normals, normals, box, 5.0, _core.Context())
+    box = removal.Box(np.full(3, -bowl), np.array([bowl, bowl, 0.0]))
+    height, _ = removal.cut_rays(sweep, -bowl * normals, normals, box, 5.0, _core.Context())
     cusp = reach * np.cos(half) + np.sqrt(BALL_MM**2 - (reach * np.sin(half)) ** 2)
     assert height == pytest.approx(bowl - cusp, abs=1e-6)
     assert height[10] > 0.005 and height[-1] == pytest.approx(0.0, abs=1e-6)
 
 
 @pytest.fixture(scope="module")
-def coarse(thesis_part: Callable[[str], Path]) -> tuple[planning.Plan, cutting.Cut]:
+def coarse(thesis_part: Callable[[str], Path]) -> tuple[planning.Plan, removal.Cut]:
     """A coarse vcrf plan of the saddle in a set-up that is not the part's frame."""
     from freecad_mpm.core.job import FootprintSpec, MethodSpec, Setup, Tolerance
 
@@ -118,10 +117,10 @@ def coarse(thesis_part: Callable[[str], Path]) -> tuple[planning.Plan, cutting.C
         tolerance=Tolerance(gouge_mm=0.02, chord_mm=2.0),
     )
     plan = planning.plan(job)
-    return plan, cutting.cut(plan.scene, plan.path, 3.0)
+    return plan, removal.cut(plan.scene, plan.path, 3.0)
 
 
-def test_the_deviation_is_that_of_dense_sampling(coarse: tuple[planning.Plan, cutting.Cut]) -> None:
+def test_the_deviation_is_that_of_dense_sampling(coarse: tuple[planning.Plan, removal.Cut]) -> None:
     plan, cut = coarse
     found, path, tool = cut.deviation, plan.path, plan.scene.tool
     rng = np.random.default_rng(1)
@@ -142,7 +141,7 @@ def test_the_deviation_is_that_of_dense_sampling(coarse: tuple[planning.Plan, cu
             assert found.deviation_mm[i] == pytest.approx(first, abs=0.012)
 
 
-def test_the_move_that_cut_is_near(coarse: tuple[planning.Plan, cutting.Cut]) -> None:
+def test_the_move_that_cut_is_near(coarse: tuple[planning.Plan, removal.Cut]) -> None:
     plan, cut = coarse
     found = cut.deviation
     cut_by = found.move >= 0
@@ -154,7 +153,7 @@ def test_the_move_that_cut_is_near(coarse: tuple[planning.Plan, cutting.Cut]) ->
     assert (plan.path.kind[found.move[cut_by]] != "rapid").all()
 
 
-def test_worst_names_the_extremes(coarse: tuple[planning.Plan, cutting.Cut]) -> None:
+def test_worst_names_the_extremes(coarse: tuple[planning.Plan, removal.Cut]) -> None:
     _, cut = coarse
     worst, values = cut.worst(), cut.deviation.deviation_mm
     assert (worst.gouge.deviation_mm, worst.remainder.deviation_mm) == (values.min(), values.max())
@@ -162,7 +161,7 @@ def test_worst_names_the_extremes(coarse: tuple[planning.Plan, cutting.Cut]) -> 
     assert (again[0], move[0]) == (pytest.approx(values.min(), abs=1e-9), worst.gouge.move)
 
 
-def test_the_mesh_lies_where_the_deviation_says(coarse: tuple[planning.Plan, cutting.Cut]) -> None:
+def test_the_mesh_lies_where_the_deviation_says(coarse: tuple[planning.Plan, removal.Cut]) -> None:
     plan, cut = coarse
     mesh = cut.mesh()
     corners = mesh.vertices[mesh.triangles]
@@ -174,53 +173,53 @@ def test_the_mesh_lies_where_the_deviation_says(coarse: tuple[planning.Plan, cut
     assert hi[2] <= plan.scene.frame.origin[2] + cut.stock.hi[2] + 1e-9
 
 
-def test_a_small_box_looks_closely(coarse: tuple[planning.Plan, cutting.Cut]) -> None:
+def test_a_small_box_looks_closely(coarse: tuple[planning.Plan, removal.Cut]) -> None:
     plan, _ = coarse
     small = ([-2.0, -2.0, 8.0], [2.0, 2.0, 16.0])
-    cut = cutting.cut(plan.scene, plan.path, 0.05, box=small)
+    cut = removal.cut(plan.scene, plan.path, 0.05, box=small)
     setup = plan.scene.frame.to_setup(cut.deviation.points)
     assert (setup >= small[0]).all() and (setup <= small[1]).all() and 4000 < len(setup) < 12_000
     assert cut.dexels.counts == [80, 80, 160]
-    with_stock, without = (cut_memory.needed(plan.scene, 0.05, small, one) for one in (True, False))
-    assert cut_memory.MESH_TO_DEXELS * cut.dexels.bytes == pytest.approx(with_stock - without, rel=0.5)
-    assert without == pytest.approx(cut_memory.BYTES_A_POINT * len(setup), rel=0.3)
+    with_stock, without = (memory.needed(plan.scene, 0.05, small, one) for one in (True, False))
+    assert memory.MESH_TO_DEXELS * cut.dexels.bytes == pytest.approx(with_stock - without, rel=0.5)
+    assert without == pytest.approx(memory.BYTES_A_POINT * len(setup), rel=0.3)
 
 
-def test_progress_and_cancel(coarse: tuple[planning.Plan, cutting.Cut]) -> None:
+def test_progress_and_cancel(coarse: tuple[planning.Plan, removal.Cut]) -> None:
     plan, _ = coarse
     seen: list[tuple[str, float]] = []
-    cutting.cut(plan.scene, plan.path, 5.0, on_progress=lambda stage, share: seen.append((stage, share)))
+    removal.cut(plan.scene, plan.path, 5.0, on_progress=lambda stage, share: seen.append((stage, share)))
     assert [stage for stage, share in seen if share == 1.0] == ["samples", "deviation", "stock"]
     stop = threading.Event()
     timer = threading.Timer(0.3, stop.set)
     timer.start()
     with pytest.raises(Cancelled):
-        cutting.cut(plan.scene, plan.path, 0.05, cancel=stop)
+        removal.cut(plan.scene, plan.path, 0.05, cancel=stop)
 
 
-def test_the_result_does_not_depend_on_threads(coarse: tuple[planning.Plan, cutting.Cut]) -> None:
+def test_the_result_does_not_depend_on_threads(coarse: tuple[planning.Plan, removal.Cut]) -> None:
     plan, _ = coarse
-    one, two = (cutting.cut(plan.scene, plan.path, 4.0, threads=n) for n in (1, 2))
+    one, two = (removal.cut(plan.scene, plan.path, 4.0, threads=n) for n in (1, 2))
     assert np.array_equal(one.deviation.deviation_mm, two.deviation.deviation_mm)
     assert np.array_equal(one.deviation.move, two.deviation.move)
     assert np.array_equal(one.mesh().vertices, two.mesh().vertices)
 
 
-def test_errors_name_the_argument(coarse: tuple[planning.Plan, cutting.Cut]) -> None:
+def test_errors_name_the_argument(coarse: tuple[planning.Plan, removal.Cut]) -> None:
     plan, _ = coarse
     with pytest.raises(ValueError, match="resolution_mm"):
-        cutting.cut(plan.scene, plan.path, 0.0)
+        removal.cut(plan.scene, plan.path, 0.0)
     with pytest.raises(ValueError, match="box"):
-        cutting.cut(plan.scene, plan.path, 1.0, box=([500.0, 0, 0], [510.0, 1, 1]))
+        removal.cut(plan.scene, plan.path, 1.0, box=([500.0, 0, 0], [510.0, 1, 1]))
     with pytest.raises(ValueError, match="with_stock"):
-        cutting.cut(plan.scene, plan.path, 9.0, with_stock=False).mesh()
+        removal.cut(plan.scene, plan.path, 9.0, with_stock=False).mesh()
 
 
 def test_gouges_are_found_where_they_are_made() -> None:
     """A ball that dips 0.03 mm into a plane in the middle of a pass."""
     rows = [("rapid", [20.0, -9.0, 0.0]), ("cut", [20.0, 15.0, 0.0]), ("cut", [20.0, 20.0, -0.03])]
     path = moves(rows + [("cut", [20.0, 25.0, 0.0]), ("cut", [20.0, 50.0, 0.0])])
-    gouge = cutting.cut(scene_of(plane(0.0)), path, 0.25, with_stock=False).worst().gouge
+    gouge = removal.cut(scene_of(plane(0.0)), path, 0.25, with_stock=False).worst().gouge
     assert gouge.deviation_mm == pytest.approx(-0.03, abs=1e-6)
     assert gouge.point == pytest.approx([20.0, 20.0, 0.0], abs=0.2) and gouge.move in (2, 3)
 
@@ -228,7 +227,7 @@ def test_gouges_are_found_where_they_are_made() -> None:
 def test_a_ball_probe_rests_on_the_cusps() -> None:
     """Between two cusps that lie farther apart than it goes down, the ball hangs on both."""
     side_step, radius = 3.0, 4.0
-    cut = cutting.cut(scene_of(plane(0.0)), passes_over(0.0, side_step), 0.5, box=BOX, with_stock=False)
+    cut = removal.cut(scene_of(plane(0.0)), passes_over(0.0, side_step), 0.5, box=BOX, with_stock=False)
     section = cut.section((0, 20, 0), (0, 1, 0), 0.05)
     scallop = BALL_MM - np.sqrt(BALL_MM**2 - side_step**2 / 4)
     inner = (section.s_mm > 8) & (section.s_mm < 32)
@@ -244,12 +243,12 @@ def test_frames_are_the_parts() -> None:
     scene = scene_of(plane(0.0))
     turned = Scene(frame, scene.machined, scene.check, _turned_model(scene, frame), scene.tool)
     path = passes_over(0.0, 3.0)
-    one, two = (cutting.cut(s, path, 1.0, with_stock=False) for s in (scene, turned))
+    one, two = (removal.cut(s, path, 1.0, with_stock=False) for s in (scene, turned))
     assert two.deviation.points == pytest.approx(one.deviation.points, abs=1e-9)
     assert two.deviation.deviation_mm == pytest.approx(one.deviation.deviation_mm, abs=1e-6)
 
 
 def _turned_model(scene: Scene, frame: Frame) -> object:
-    from freecad_mpm.core.model import surface_model
+    from freecad_mpm.core.part import surface_model
 
     return surface_model(scene.machined, scene.check, frame)

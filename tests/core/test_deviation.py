@@ -8,11 +8,11 @@ import matplotlib.image
 import numpy as np
 import pytest
 
-from freecad_mpm.core import deviation_bands, deviation_picture
-from freecad_mpm.core.cutting import Extreme
+from freecad_mpm.core.pictures import deviation
+from freecad_mpm.core.removal import Extreme, bands
 
-COLOURS = deviation_bands.COLOURS
-BANDS = deviation_bands.bands(0.01)
+COLOURS = bands.COLOURS
+BANDS = bands.bands(0.01)
 
 
 @pytest.mark.parametrize(
@@ -40,11 +40,11 @@ def test_shares_and_their_words() -> None:
     deviation_mm = np.array([0.0] * 2999 + [-0.05])
     shares = BANDS.shares(deviation_mm)
     assert sum(shares) == pytest.approx(1)
-    assert deviation_bands.table(BANDS, shares) == ["-0.1 mm to -10 µm: < 0.1 %", "-10 µm to +10 µm: 100.0 %"]
+    assert bands.table(BANDS, shares) == ["-0.1 mm to -10 µm: < 0.1 %", "-10 µm to +10 µm: 100.0 %"]
 
 
 def test_a_tolerance_of_zero_still_has_bands() -> None:
-    assert (np.diff(deviation_bands.bands(0.0).edges) > 0).all()
+    assert (np.diff(bands.bands(0.0).edges) > 0).all()
 
 
 def picture(deviation_mm: np.ndarray) -> np.ndarray:
@@ -59,8 +59,8 @@ def picture(deviation_mm: np.ndarray) -> np.ndarray:
         Extreme(float(deviation_mm.max()), points[-1], -1),
         None,
     ]
-    shown = deviation_picture.Map(points, triangles, deviation_mm, len(points), worst, 1.0)
-    png = deviation_picture.render(shown, BANDS, "square")
+    shown = deviation.Map(points, triangles, deviation_mm, len(points), worst, 1.0)
+    png = deviation.render(shown, BANDS, "square")
     return matplotlib.image.imread(io.BytesIO(png))[:, :1050, :3]  # without the key
 
 

@@ -7,9 +7,11 @@ import numpy as np
 import pytest
 from machine_samples import program_of, two_passes
 
-from freecad_mpm.core import cli, dialects, machines, posts
-from freecad_mpm.core.errors import InputError
-from freecad_mpm.core.program_check import check_program
+from freecad_mpm.core import machine as machines
+from freecad_mpm.core import posts
+from freecad_mpm.core.base import InputError
+from freecad_mpm.core.commands import cli
+from freecad_mpm.core.control import check_program, dialects
 
 KIND, TIP, AXIS, FEED = two_passes()
 MACHINE = "table_bc"

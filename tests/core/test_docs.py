@@ -6,8 +6,9 @@ import re
 from dataclasses import replace
 from pathlib import Path
 
-from freecad_mpm.core import cl_file, job
+from freecad_mpm.core import job
 from freecad_mpm.core.job import Job, Part, ToolSpec
+from freecad_mpm.core.path import cl_file
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 

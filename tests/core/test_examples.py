@@ -9,10 +9,21 @@ import numpy as np
 import pytest
 from part_samples import EXAMPLES, shared
 
-from freecad_mpm.core import cutting, job, planning, report, results, tools
-from freecad_mpm.core.job import FootprintSpec, Job, LinkSpec, MethodSpec, Part, Setup, Tolerance, ToolSpec
-from freecad_mpm.core.resources import TOOLS
-from freecad_mpm.core.stages import Stages
+from freecad_mpm.core import job, planning, removal
+from freecad_mpm.core.base import TOOLS, Stages
+from freecad_mpm.core.commands import plan_files
+from freecad_mpm.core.job import (
+    FootprintSpec,
+    Job,
+    LinkSpec,
+    MethodSpec,
+    Part,
+    Setup,
+    Tolerance,
+    ToolSpec,
+    tool,
+)
+from freecad_mpm.core.report import facts
 
 THESIS = ("convex", "concave", "saddle")
 SHIPPED = sorted(path.stem for path in EXAMPLES.glob("*.toml"))
@@ -29,8 +40,8 @@ def test_a_thesis_surface_gives_760_positions_a_program_and_a_picture(name: str)
     assert np.bincount(plan.pass_index).tolist() == [76] * 10
     assert plan.usable.all()
     assert -plan.clearance[:, 1].min() == pytest.approx(WORST_GOUGE_MM[name], abs=WORST_GOUGE_SLACK_MM)
-    cut = cutting.cut(plan.scene, plan.path, cutting.default_resolution_mm(plan.scene))
-    files = results.files(plan, cut, Stages())
+    cut = removal.cut(plan.scene, plan.path, removal.default_resolution_mm(plan.scene))
+    files = plan_files.files(plan, cut, Stages())
     assert files["cl.csv"].count(",cut,") == 760
     assert files["path.png"].startswith(b"\x89PNG")
     assert files["machined.stl"]
@@ -40,8 +51,8 @@ def test_a_thesis_surface_gives_760_positions_a_program_and_a_picture(name: str)
 @pytest.mark.parametrize("name", SHIPPED)
 def test_a_shipped_example_is_good_as_it_stands(name: str) -> None:
     plan = planning.plan(job.load(EXAMPLES / f"{name}.toml"))
-    cut = cutting.cut(plan.scene, plan.path, 1.0, with_stock=False)
-    told = report.with_cut(plan, cut)
+    cut = removal.cut(plan.scene, plan.path, 1.0, with_stock=False)
+    told = facts.with_cut(plan, cut)
     assert told["verdict"]["good"], told["verdict"]["line"]
     # What the certificate promised, seen by someone else.
     worst = told["cut"]["worst_gouge"]
@@ -67,7 +78,7 @@ def test_the_nacelle_a_part_of_metres(tmp_path: Path) -> None:
     plan = computed(
         Job(
             part=part,
-            tool=tools.load(TOOLS / "torus_80_r10.toml"),
+            tool=tool.load(TOOLS / "torus_80_r10.toml"),
             setup=Setup(z=(-0.3, -1.0, 0.0)),
             footprint=FootprintSpec(side_step_mm=200, forward_step_mm=40),
             method=MethodSpec("vcrf"),

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from freecad_mpm.core.frame import frame_of
 from freecad_mpm.core.job import Setup
+from freecad_mpm.core.part.frame import frame_of
 
 SETUPS = [
     Setup(),

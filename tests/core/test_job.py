@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from freecad_mpm.core import job, tools
-from freecad_mpm.core.errors import InputError
-from freecad_mpm.core.job import FootprintSpec, Job, MethodSpec, Part, PostSpec, Setup, ToolSpec
+from freecad_mpm.core import job
+from freecad_mpm.core.base import InputError
+from freecad_mpm.core.job import FootprintSpec, Job, MethodSpec, Part, PostSpec, Setup, ToolSpec, tool
 
 MINIMAL = '[part]\nfile = "saddle.step"\n[tool]\nmajor_radius_mm = 6.7\nminor_radius_mm = 6\n'
 
@@ -36,7 +36,7 @@ def test_everything_but_part_and_tool_has_its_default(tmp_path: Path) -> None:
 def test_dump_and_load_give_the_same_job(tmp_path: Path) -> None:
     made = Job(
         part=Part(file='/part ä "quoted".step', faces=("Face1", "Face3"), check_faces=("Face2",)),
-        tool=tools.load(tools.find("thesis", tmp_path)),
+        tool=tool.load(tool.find("thesis", tmp_path)),
         setup=Setup(origin=(1.5, -2.0, 1e-7), z=(0.0, 0.6, 0.8), x=(1.0, 0.1, 0.0)),
         footprint=FootprintSpec(direction_deg=12.5, zigzag=True, margin_mm=-1.0),
         method=MethodSpec(name="vcrf", options={"divisions": 16.0}),

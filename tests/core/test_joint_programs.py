@@ -16,10 +16,11 @@ from machine_samples import (
     with_rotary,
 )
 
-from freecad_mpm.core import cli, dialects, machines, posts
-from freecad_mpm.core.control import Control
-from freecad_mpm.core.posts.options import PostOptions
-from freecad_mpm.core.program_check import check_program
+from freecad_mpm.core import machine as machines
+from freecad_mpm.core import posts
+from freecad_mpm.core.commands import cli
+from freecad_mpm.core.control import Control, check_program, dialects
+from freecad_mpm.core.posts import PostOptions
 
 KIND, TIP, AXIS, FEED = two_passes()
 MACHINE = "table_bc"

@@ -14,8 +14,10 @@ from linuxcnc import MODULE_OF, TOOL_LENGTH_MM
 from machine_samples import directions, program_of, two_passes, with_rotary
 
 from freecad_mpm import _core
-from freecad_mpm.core import dialects, machines, posts
-from freecad_mpm.core.posts.options import PostOptions
+from freecad_mpm.core import machine as machines
+from freecad_mpm.core import posts
+from freecad_mpm.core.control import dialects
+from freecad_mpm.core.posts import PostOptions
 
 pytestmark = pytest.mark.skipif(not linuxcnc.THERE, reason=linuxcnc.MISSING)
 

@@ -5,7 +5,8 @@ import pytest
 from machine_samples import directions, with_rotary
 
 from freecad_mpm import _core
-from freecad_mpm.core import kinematics, machines
+from freecad_mpm.core import machine as machines
+from freecad_mpm.core.control import kinematics
 
 TIP_TOLERANCE_MM = AXIS_TOLERANCE = 1e-9
 ORIGIN, LENGTH = (12.0, -7.0, 55.0), 160.0

@@ -7,8 +7,9 @@ import pytest
 from machine_samples import directions, dmu80p, two_passes, with_kinematics, with_rotary
 
 from freecad_mpm import _core
-from freecad_mpm.core import kinematics
-from freecad_mpm.core.machine_path import axis_tolerance_deg, machine_path
+from freecad_mpm.core.control import kinematics
+from freecad_mpm.core.job.budget import axis_tolerance_deg
+from freecad_mpm.core.machine import joint_path
 
 ORIGIN, LENGTH = (30.0, -40.0, 120.0), 137.0
 SETUP = _core.PartSetup(part_origin_mm=ORIGIN, tool_length_mm=LENGTH)
@@ -80,7 +81,7 @@ def test_solution_side_tells_the_two_solutions_apart():
 
 def test_given_poses_are_kept_in_order_and_met():
     kind, tip, axis, feed = two_passes()
-    path = machine_path(dmu80p(), kind, tip, axis, feed, axis_tolerance_deg=0.02)
+    path = joint_path(dmu80p(), kind, tip, axis, feed, axis_tolerance_deg=0.02)
     last = np.append(np.flatnonzero(np.diff(path.source)), len(path) - 1)
     assert len(path) > len(kind)
     assert path.source[last].tolist() == list(range(len(kind)))
@@ -93,7 +94,7 @@ def test_given_poses_are_kept_in_order_and_met():
 
 def test_table_unwinds_over_the_seam_and_steps_stay_small():
     kind, tip, axis, feed = two_passes()
-    path = machine_path(dmu80p(), kind, tip, axis, feed, axis_tolerance_deg=0.02)
+    path = joint_path(dmu80p(), kind, tip, axis, feed, axis_tolerance_deg=0.02)
     cuts = path.kind[1:] == "cut"
     assert np.abs(np.diff(path.angles_deg, axis=0))[cuts].max() <= dmu80p().kinematics.max_rotary_step_deg
     assert np.ptp(path.angles_deg[:, 0]) > 360
@@ -103,7 +104,7 @@ def test_table_unwinds_over_the_seam_and_steps_stay_small():
 def test_rapids_turn_with_the_tip_held_at_their_higher_end(rise):
     tip = np.array([[0.0, 0, 50], [30.0, 0, 50 + rise]])
     axis = directions([10.0, 20.0], [0.0, 90.0])
-    path = machine_path(dmu80p(), np.array(["rapid"] * 2), tip, axis, np.zeros(2), axis_tolerance_deg=0.02)
+    path = joint_path(dmu80p(), np.array(["rapid"] * 2), tip, axis, np.zeros(2), axis_tolerance_deg=0.02)
     assert len(path) == 3
     turning = np.flatnonzero(np.any(np.diff(path.angles_deg, axis=0) != 0, axis=1))
     travelling = np.flatnonzero(np.any(np.diff(path.tip, axis=0) != 0, axis=1))
@@ -113,7 +114,7 @@ def test_rapids_turn_with_the_tip_held_at_their_higher_end(rise):
 def test_rapids_that_only_travel_or_only_turn_stay_one():
     tip = np.array([[0.0, 0, 50], [30.0, 0, 50], [30.0, 0, 50]])
     axis = directions([10.0, 10.0, 20.0], [0.0, 0.0, 90.0])
-    path = machine_path(dmu80p(), np.array(["rapid"] * 3), tip, axis, np.zeros(3), axis_tolerance_deg=0.02)
+    path = joint_path(dmu80p(), np.array(["rapid"] * 3), tip, axis, np.zeros(3), axis_tolerance_deg=0.02)
     assert len(path) == 3
 
 
@@ -124,7 +125,7 @@ def test_solution_changes_only_in_rapids_that_turn_on_the_spot():
     axis[len(kind) // 2 :] = directions(
         45.0, 30.0
     )  # the second pass needs a tilt over the limit: the other solution
-    path = machine_path(machine, kind, tip, axis, feed, axis_tolerance_deg=0.02)
+    path = joint_path(machine, kind, tip, axis, feed, axis_tolerance_deg=0.02)
     assert path.troubles() == []
     side = np.sign(kinematics.solution_side(machine, path.angles_deg))
     changes = np.flatnonzero(np.diff(side)) + 1
@@ -138,7 +139,7 @@ def test_cut_through_the_pole_keeps_the_direction_within_the_cone():
     axis = directions(np.abs(tilt), np.where(tilt < 0, 20.0, 200.0))
     kind = np.array(["rapid"] + ["cut"] * 24)
     machine = with_kinematics(dmu80p(), pole_cone_deg=0.0004)
-    path = machine_path(machine, kind, tip, axis, np.full(25, 1000.0), axis_tolerance_deg=0.02)
+    path = joint_path(machine, kind, tip, axis, np.full(25, 1000.0), axis_tolerance_deg=0.02)
     assert path.at_pole.any()
     off = kinematics.angles_between_deg(kinematics.tool_axes(machine, path.angles_deg), path.axis)
     assert off.max() <= 2 * 0.0004
@@ -150,14 +151,14 @@ def test_troubles_name_the_first_move():
     axis = axis.copy()
     axis[5] = (1.0, 0.0, -0.5) / np.linalg.norm((1.0, 0.0, -0.5))
     machine = with_rotary(dmu80p(), 1, max_limit_deg=15.0)
-    troubles = machine_path(machine, kind, tip, axis, feed, axis_tolerance_deg=0.02).troubles()
+    troubles = joint_path(machine, kind, tip, axis, feed, axis_tolerance_deg=0.02).troubles()
     assert any("cannot give the tool's direction" in line and "move 5" in line for line in troubles)
     assert any("a rotary axis leaves its limits" in line for line in troubles)
     short = replace(
         dmu80p(),
         linear_axes=(replace(dmu80p().linear_axes[0], max_limit_mm=-200.0), *dmu80p().linear_axes[1:]),
     )
-    assert "a linear axis" in machine_path(short, *two_passes(), axis_tolerance_deg=0.02).troubles()[0]
+    assert "a linear axis" in joint_path(short, *two_passes(), axis_tolerance_deg=0.02).troubles()[0]
 
 
 def test_bad_arguments_are_named():
@@ -165,9 +166,9 @@ def test_bad_arguments_are_named():
     nowhere = tip.copy()
     nowhere[3] = np.nan
     with pytest.raises(ValueError, match=r"tip\["):
-        machine_path(machine, kind, nowhere, axis, feed, axis_tolerance_deg=0.02)
+        joint_path(machine, kind, nowhere, axis, feed, axis_tolerance_deg=0.02)
     with pytest.raises(ValueError, match="axis_tolerance"):
-        machine_path(machine, kind, tip, axis, feed, axis_tolerance_deg=0.0)
+        joint_path(machine, kind, tip, axis, feed, axis_tolerance_deg=0.0)
     with pytest.raises(ValueError, match=r"axis\[0\]"):
         machine.chain().inverse(tip[:1], np.zeros((1, 3)))
     with pytest.raises(ValueError, match="role"):

@@ -4,9 +4,8 @@ import math
 
 import pytest
 
-from freecad_mpm.core import machines
-from freecad_mpm.core.errors import InputError
-from freecad_mpm.core.resources import MACHINES
+from freecad_mpm.core import machine as machines
+from freecad_mpm.core.base import MACHINES, InputError
 
 SHIPPED = (MACHINES / "dmu80p.toml").read_text()
 

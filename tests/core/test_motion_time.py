@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from machine_samples import directions
 
-from freecad_mpm.core import kinematics, machines
-from freecad_mpm.core.axis_ramps import ramp_seconds, rest_to_rest_seconds
-from freecad_mpm.core.errors import InputError
-from freecad_mpm.core.machine_path import machine_path
-from freecad_mpm.core.motion_time import move_seconds, slowed_cuts
+from freecad_mpm.core import machine as machines
+from freecad_mpm.core.base import InputError
+from freecad_mpm.core.control import kinematics
+from freecad_mpm.core.machine import joint_path, move_seconds, slowed_cuts
+from freecad_mpm.core.machine.axis_ramps import ramp_seconds, rest_to_rest_seconds
 
 # 500 mm/s and 5000 mm/s2 along X, Y and Z; 120 deg/s and 360 deg/s2 of both rotary axes
 MACHINE = "table_bc"
@@ -34,7 +34,7 @@ def moves_of(tip, axis, feed_mm_per_s, kind=None):
     """The moves of the machine, and the readings of X, Y and Z."""
     machine, count = machines.load(MACHINE), len(tip)
     kind = np.array(["rapid"] + ["cut"] * (count - 1)) if kind is None else kind
-    moves = machine_path(
+    moves = joint_path(
         machine,
         kind,
         np.array(tip, float),
@@ -108,7 +108,7 @@ def test_cuts_that_a_rotary_axis_slows_down_are_named():
     """1 mm at 50 mm/s takes 0.02 s, in which 120 deg/s turn 2.4 degrees."""
     machine, turns = machines.load(MACHINE), np.array([0.0, 2.0, 6.9, 6.9])  # steps of 2, 4.9 and 0 degrees
     kind = np.array(["rapid", "cut", "cut", "cut"])
-    moves = machine_path(
+    moves = joint_path(
         machine, kind, straight(3.0, 3), directions(20.0, turns), np.full(4, 3000.0), axis_tolerance_deg=180.0
     )
     assert slowed_cuts(machine, moves).tolist() == [2]

@@ -12,14 +12,15 @@ import numpy as np
 import pytest
 
 from freecad_mpm import _core
-from freecad_mpm.core import cl_file, job, planning, report, tools, verification
-from freecad_mpm.core.errors import Cancelled
-from freecad_mpm.core.job import FootprintSpec, Job, Part
-from freecad_mpm.core.motions import CONTROL_SHARE, control_deviation_deg
-from freecad_mpm.core.plan import Plan
-from freecad_mpm.core.resources import EXAMPLES, TOOLS
-from freecad_mpm.core.stages import Stages
-from freecad_mpm.core.statement import statement
+from freecad_mpm.core import job, planning
+from freecad_mpm.core.base import EXAMPLES, TOOLS, Cancelled, Stages
+from freecad_mpm.core.job import FootprintSpec, Job, Part, control_deviation_deg, tool
+from freecad_mpm.core.job.budget import CONTROL_SHARE
+from freecad_mpm.core.path import cl_file, judge
+from freecad_mpm.core.planning import Plan
+from freecad_mpm.core.report.statement import statement
+from freecad_mpm.core.report.text import text
+from freecad_mpm.core.report.warnings import unproven
 
 CANCEL_S, SLACK_S = 0.1, 0.4
 
@@ -58,7 +59,7 @@ def thesis_job(thesis_part: Callable[[str], Path]) -> Job:
     """Steps so long that the chord tolerance asks for positions in between."""
     return Job(
         part=Part(file=str(thesis_part("saddle"))),
-        tool=tools.load(TOOLS / "thesis.toml"),
+        tool=tool.load(TOOLS / "thesis.toml"),
         footprint=FootprintSpec(side_step_mm=75, forward_step_mm=6),
     )
 
@@ -156,7 +157,7 @@ def test_the_report_ends_with_one_statement(plan: Plan) -> None:
         f"within 10 µm on all {slow} plunges and retracts, clear on all {rapids} rapids, proven"
     )
     assert plan.report["statement"] == said
-    assert report.text(plan.report).splitlines()[-1].startswith(said[1:], 1)
+    assert text(plan.report).splitlines()[-1].startswith(said[1:], 1)
 
 
 def test_links_that_are_not_proven_are_named(plan: Plan) -> None:
@@ -166,7 +167,7 @@ def test_links_that_are_not_proven_are_named(plan: Plan) -> None:
     proven = np.ones(len(plan.path), dtype=bool)
     proven[[retract, rapid, plunge]] = False
     path = replace(plan.path, proven=proven)
-    (line,) = report.unproven(path)
+    (line,) = unproven(path)
     left, reached = path.position[retract - 1], path.position[plunge]
     assert line.startswith(f"3 links are not proven free: retract from position {left} (least clearance")
     assert f"rapid to position {reached} (" in line and f"plunge to position {reached} (" in line
@@ -174,7 +175,7 @@ def test_links_that_are_not_proven_are_named(plan: Plan) -> None:
     slow = np.count_nonzero(np.isin(path.kind, ("plunge", "retract")))
     rapids = np.count_nonzero(path.kind[1:] == "rapid")
     assert f"on {slow - 2} of {slow} plunges and retracts, clear on {rapids - 1} of {rapids} rapids" in said
-    assert report.unproven(plan.path) == []
+    assert unproven(plan.path) == []
 
 
 def test_the_machine_gets_the_deviation_that_the_certificate_took_off(plan: Plan) -> None:
@@ -193,7 +194,7 @@ def test_a_sampled_method_gets_no_positions_and_no_proof(thesis_job: Job) -> Non
 def test_verify_judges_the_cuts_of_a_file(plan: Plan, tmp_path: Path) -> None:
     text = cl_file.to_csv(plan, plan.path)
     (tmp_path / "cl.csv").write_text(text)
-    good = verification.verify(plan.job, cl_file.read_csv(tmp_path / "cl.csv"), Stages())
+    good = judge.verify(plan.job, cl_file.read_csv(tmp_path / "cl.csv"), Stages())
     assert good.good and len(good.verdict) == len(good.moves) - 1
     lines = text.splitlines()
     # Without the positions between, the tool takes the chord.
@@ -201,7 +202,7 @@ def test_verify_judges_the_cuts_of_a_file(plan: Plan, tmp_path: Path) -> None:
     rows = [i for i, line in enumerate(lines) if ",cut," in line]
     thin = [line for i, line in enumerate(lines) if i not in rows or rows.index(i) not in inserted]
     (tmp_path / "thin.csv").write_text("\n".join([*thin, ""]))
-    bad = verification.verify(plan.job, cl_file.read_csv(tmp_path / "thin.csv"), Stages())
+    bad = judge.verify(plan.job, cl_file.read_csv(tmp_path / "thin.csv"), Stages())
     assert not bad.good and (bad.clearance >= -plan.job.tolerance.gouge_mm).all()
     assert any("First bad one: on line" in line for line in bad.lines)
 

@@ -7,8 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from freecad_mpm.core import output
-from freecad_mpm.core.errors import InputError
+from freecad_mpm.core.base import InputError, output
 
 
 def test_files_are_written_and_nothing_else(tmp_path: Path) -> None:

@@ -12,10 +12,10 @@ import pytest
 from test_cli import run
 from test_cutting import moves, plane
 
-from freecad_mpm.core import cut_memory, cutting
-from freecad_mpm.core.faces import FaceArrays
+from freecad_mpm.core import removal
 from freecad_mpm.core.job import Job, Part, ToolSpec
-from freecad_mpm.core.model import Scene, build_scene
+from freecad_mpm.core.part import FaceArrays, Scene, build_scene
+from freecad_mpm.core.removal import memory
 
 KNOTS = np.array([0.0, 0.0, 1.0, 1.0])
 FLOOR = plane(0.0)
@@ -42,7 +42,7 @@ def along_the_wall(nearest: float) -> SimpleNamespace:
 
 @pytest.mark.parametrize("depth", [0.003, 0.2, 1.5])
 def test_a_cut_into_the_neighbour_face_is_found(depth: float) -> None:
-    cut = cutting.cut(walled(40.0), along_the_wall(RADIUS_MM - depth), 0.25, with_stock=False)
+    cut = removal.cut(walled(40.0), along_the_wall(RADIUS_MM - depth), 0.25, with_stock=False)
     found = cut.worst().check
     assert found is not None
     assert found.deviation_mm == pytest.approx(-depth, abs=2e-6)
@@ -55,7 +55,7 @@ def test_a_cut_into_the_neighbour_face_is_found(depth: float) -> None:
 
 
 def test_a_path_that_keeps_clear_cuts_none() -> None:
-    cut = cutting.cut(walled(40.0), along_the_wall(RADIUS_MM + 0.001), 0.25, with_stock=False)
+    cut = removal.cut(walled(40.0), along_the_wall(RADIUS_MM + 0.001), 0.25, with_stock=False)
     assert cut.worst().check is None and cut.good(0.0)
     assert cut.overcut.looked_at > 3000 and len(cut.overcut.points) == 0
 
@@ -65,14 +65,14 @@ def test_which_way_the_face_is_turned_does_not_matter() -> None:
     turned = [FLOOR, FaceArrays("Face2", "plane", 1, 1, KNOTS, KNOTS, wall(40.0).poles[::-1])]
     other = build_scene(Job(part=Part("none", faces=("Face1",)), tool=ToolSpec(3.0, 2.0)), turned)
     one, two = (
-        cutting.cut(s, along_the_wall(4.5), 0.5, with_stock=False).worst().check for s in (scene, other)
+        removal.cut(s, along_the_wall(4.5), 0.5, with_stock=False).worst().check for s in (scene, other)
     )
     assert one and two and one.deviation_mm == pytest.approx(two.deviation_mm, abs=1e-9)
 
 
 def test_a_box_leaves_out_what_is_cut_elsewhere() -> None:
     box = ([30.0, 0.0, -1.0], [41.0, 10.0, 10.0])
-    cut = cutting.cut(walled(40.0), along_the_wall(4.5), 0.25, box=box, with_stock=False)
+    cut = removal.cut(walled(40.0), along_the_wall(4.5), 0.25, box=box, with_stock=False)
     found = cut.worst().check
     assert found is None or found.point[1] <= 10.0
 
@@ -83,7 +83,7 @@ def test_near_an_edge_the_depth_is_the_tools_not_that_along_a_normal() -> None:
     down = FaceArrays("Face2", "plane", 1, 1, KNOTS, KNOTS, poles)
     job = Job(part=Part("none", faces=("Face1",)), tool=ToolSpec(3.0, 2.0, flute_length_mm=30.0))
     path = moves([("rapid", [38.0, -10.0, -0.01]), ("cut", [38.0, 50.0, -0.01])])
-    cut = cutting.cut(build_scene(job, [FLOOR, down]), path, 0.5, with_stock=False)
+    cut = removal.cut(build_scene(job, [FLOOR, down]), path, 0.5, with_stock=False)
     found = cut.worst().check
     assert found is not None and found.deviation_mm == pytest.approx(-0.01, abs=1e-6)
     assert cut.good(0.0101) and not cut.good(0.0099)
@@ -91,7 +91,7 @@ def test_near_an_edge_the_depth_is_the_tools_not_that_along_a_normal() -> None:
 
 def test_the_machined_face_is_judged_by_the_same_depth() -> None:
     path = moves([("rapid", [20.0, -9.0, 0.0]), ("cut", [20.0, 20.0, -0.03]), ("cut", [20.0, 50.0, 0.0])])
-    cut = cutting.cut(walled(60.0), path, 0.5, with_stock=False)
+    cut = removal.cut(walled(60.0), path, 0.5, with_stock=False)
     assert cut.worst().gouge.deviation_mm == pytest.approx(-0.03, abs=1e-3)
     assert cut.good(0.031) and not cut.good(0.025)
 
@@ -124,14 +124,14 @@ def test_what_takes_more_memory_than_there_is_says_what_would_fit(
     monkeypatch: pytest.MonkeyPatch, thesis_part: Callable[[str], Path]
 ) -> None:
     scene = walled(40.0)
-    monkeypatch.setattr(cut_memory, "available", lambda: 50e6)
+    monkeypatch.setattr(memory, "available", lambda: 50e6)
     with pytest.raises(
         ValueError, match=r"0\.01 mm takes .* GB, and at most 50 MB may be used; ([\d.]+) mm"
     ) as told:
-        cut_memory.check(scene, 0.01)
+        memory.check(scene, 0.01)
     fits = float(str(told.value).split("; ")[1].split()[0])
-    assert cut_memory.needed(scene, fits) <= 50e6 < cut_memory.needed(scene, 0.9 * fits)
-    assert "takes about" in cut_memory.check(scene, fits)
+    assert memory.needed(scene, fits) <= 50e6 < memory.needed(scene, 0.9 * fits)
+    assert "takes about" in memory.check(scene, fits)
     with pytest.raises(ValueError, match=r"0\.0001 mm .*more than .* dexels; .* would fit"):
-        cut_memory.check(scene, 1e-4)
-    assert "mm takes about" in cut_memory.check(scene, 0.05, ([0, 0, -1], [5, 5, 1]))
+        memory.check(scene, 1e-4)
+    assert "mm takes about" in memory.check(scene, 0.05, ([0, 0, -1], [5, 5, 1]))

@@ -9,11 +9,11 @@ import pytest
 from part_samples import DATA, EXAMPLES, shared
 
 from freecad_mpm import _core, _occt
-from freecad_mpm.core.bezier_text import ROW
-from freecad_mpm.core.errors import InputError
-from freecad_mpm.core.faces import FaceArrays, to_core
-from freecad_mpm.core.info import info_lines
-from freecad_mpm.core.part_file import read_brep_string, read_part
+from freecad_mpm.core.base import InputError
+from freecad_mpm.core.part import FaceArrays, info_lines
+from freecad_mpm.core.part.bezier_text import ROW
+from freecad_mpm.core.part.faces import to_core
+from freecad_mpm.core.part.file import read_brep_string, read_part
 
 MAKE_EXAMPLES = runpy.run_path(str(EXAMPLES / "make_examples.py"), run_name="make_examples")
 

@@ -9,9 +9,9 @@ import pytest
 from matplotlib.figure import Figure
 
 from freecad_mpm import _core
-from freecad_mpm.core import picture, picture_panels
-from freecad_mpm.core.faces import FaceArrays
-from freecad_mpm.core.surface_mesh import quads
+from freecad_mpm.core.part import FaceArrays, quads
+from freecad_mpm.core.pictures import plan as picture
+from freecad_mpm.core.pictures import plan_panels
 
 KNOTS = np.array([0.0, 0.0, 1.0, 1.0])
 TOOL = _core.Tool(6.7, 6.0, 6.0, 40.0)
@@ -87,7 +87,7 @@ def test_a_blocked_move_is_red(flip):
 
 def test_key_counts():
     axes = Figure().add_subplot()
-    picture_panels.key(axes, plan_on_floor(), 0.001)
+    plan_panels.key(axes, plan_on_floor(), 0.001)
     legends = [child for child in axes.get_children() if hasattr(child, "get_texts")]
     texts = [text.get_text() for legend in legends for text in legend.get_texts()]
     assert {"51  two contacts", "1  tilt limited", "52  first contact P", "51  second contact Q"} <= set(

@@ -12,15 +12,19 @@ import numpy as np
 import pytest
 
 from freecad_mpm import _core
-from freecad_mpm.core import cl_file, job, planning, tools
-from freecad_mpm.core.errors import Cancelled, InputError
-from freecad_mpm.core.frame import frame_of
+from freecad_mpm.core import job, planning
+from freecad_mpm.core.base import TOOLS, Cancelled, InputError, Stages
 from freecad_mpm.core.job import FootprintSpec, Job, MethodSpec, Part, Setup, Tolerance
-from freecad_mpm.core.model import native_tool
-from freecad_mpm.core.part_file import read_part
-from freecad_mpm.core.plan import Plan
-from freecad_mpm.core.resources import TOOLS
-from freecad_mpm.core.stages import Stages
+from freecad_mpm.core.job import tool as tools
+from freecad_mpm.core.part import prepare
+from freecad_mpm.core.part.file import read_part
+from freecad_mpm.core.part.frame import frame_of
+from freecad_mpm.core.part.scene import native_tool
+from freecad_mpm.core.path import cl_file
+from freecad_mpm.core.planning import Plan
+from freecad_mpm.core.positioning import lay_out, method_names
+from freecad_mpm.core.positioning.footprint import unbroken_runs
+from freecad_mpm.core.positioning.methods import method_options
 
 # A cancel must stop the work within 0.1 s; the rest is for a machine that is busy with other things.
 CANCEL_S, SLACK_S = 0.1, 0.4
@@ -43,7 +47,7 @@ def coarse_job(thesis_job: Job) -> Job:
 
 def test_the_thesis_footprint_comes_out_exactly(thesis_job: Job) -> None:
     stages = Stages()
-    footprint = planning.lay_out(thesis_job, planning.prepare(thesis_job, None, stages), stages)
+    footprint = lay_out(thesis_job, prepare(thesis_job, None, stages), stages)
     x, y = np.meshgrid([*range(0, 145, 18), 150], np.arange(0, 151, 2), indexing="ij")
     assert footprint.points.tolist() == np.dstack((x, y)).reshape(-1, 2).astype(float).tolist()
     assert footprint.pass_index.tolist() == np.repeat(np.arange(10), 76).tolist()
@@ -106,12 +110,12 @@ def test_positions_are_proven_to_the_jobs_own_tolerance(coarse_job: Job, gouge_m
 
 def test_an_option_of_the_method_goes_before_the_jobs_tolerance(coarse_job: Job) -> None:
     own = replace(coarse_job, method=MethodSpec("exact", options={"gouge_mm": 1e-4}))
-    assert planning.method_options(own) == {"gouge_mm": 1e-4}
-    assert planning.method_options(replace(own, method=MethodSpec("exact"))) == {"gouge_mm": 0.02}
-    assert planning.method_options(replace(own, method=MethodSpec("vcrf"))) == {}
+    assert method_options(own) == {"gouge_mm": 1e-4}
+    assert method_options(replace(own, method=MethodSpec("exact"))) == {"gouge_mm": 0.02}
+    assert method_options(replace(own, method=MethodSpec("vcrf"))) == {}
 
 
-@pytest.mark.parametrize("method", planning.method_names())
+@pytest.mark.parametrize("method", method_names())
 def test_any_number_of_threads_gives_the_same_bytes(coarse_job: Job, method: str) -> None:
     coarse_job = replace(coarse_job, method=MethodSpec(method))
     one, two, all_cores = (planning.plan(coarse_job, threads=threads) for threads in (1, 2, 0))
@@ -156,7 +160,7 @@ def test_other_faces_are_kept_clear_of(coarse_job: Job) -> None:
 def test_runs_end_where_points_are_left_out() -> None:
     passes = np.array([0, 0, 0, 0, 1, 1, 2, 2, 2])
     keep = np.array([1, 0, 1, 1, 1, 1, 0, 0, 1], dtype=bool)
-    assert planning.unbroken_runs(passes, keep).tolist() == [0, 1, 1, 2, 2, 3]
+    assert unbroken_runs(passes, keep).tolist() == [0, 1, 1, 2, 2, 3]
 
 
 WRONG_JOBS = [

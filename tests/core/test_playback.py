@@ -8,9 +8,12 @@ import numpy as np
 import pytest
 from machine_samples import AXIS_TOLERANCE_DEG, two_passes
 
-from freecad_mpm.core import machine_bodies, machine_motion, machines, playback, tools
-from freecad_mpm.core.machine_path import machine_path
-from freecad_mpm.core.resources import TOOLS
+from freecad_mpm.core import machine as machines
+from freecad_mpm.core.base import TOOLS
+from freecad_mpm.core.job import tool
+from freecad_mpm.core.machine import joint_path
+from freecad_mpm.core.playback import bodies as machine_motion
+from freecad_mpm.core.playback import playback, sketch
 
 LENGTH_MM, ORIGIN_MM = 160.0, (12.0, -7.0, 55.0)
 UP = np.array([0.0, 0.0, 1.0])
@@ -24,7 +27,7 @@ def machine_named(name):
 
 def playback_of(machine):
     kind, tip, axis, feed = two_passes()
-    blocks = machine_path(machine, kind, tip, axis, feed, axis_tolerance_deg=AXIS_TOLERANCE_DEG)
+    blocks = joint_path(machine, kind, tip, axis, feed, axis_tolerance_deg=AXIS_TOLERANCE_DEG)
     moves = np.flatnonzero((kind == "cut") | (kind == "plunge"))
     names = np.array([f"status {move}" for move in moves])
     return playback.make_playback(machine, blocks, playback.Visited(moves, names, 0.001 * moves))
@@ -153,7 +156,7 @@ def test_steps_to_the_neighbours(played):
 def test_the_sketch_has_every_body_and_the_table_lies_under_the_part(name):
     machine = machine_named(name)
     low, high = np.array([-20.0, -30.0, -10.0]), np.array([100.0, 90.0, 40.0])
-    bodies = machine_bodies.sketch(machine, (low, high), tools.load(TOOLS / "thesis.toml"))
+    bodies = sketch.sketch(machine, (low, high), tool.load(TOOLS / "thesis.toml"))
     assert set(bodies) == {*machine.rotary_letters, "spindle", "ram"}
     first = machine.rotary_axes[0]
     if first.role == "table_rotary":

@@ -6,11 +6,12 @@ import pytest
 from machine_samples import AXIS_TOLERANCE_DEG, program_of, with_kinematics, with_rotary
 from part_samples import TOOL
 
-from freecad_mpm.core import dialects, job, kinematics, machines, planning, posts
-from freecad_mpm.core.control import Control
-from freecad_mpm.core.motions import control_deviation_deg
-from freecad_mpm.core.program_check import check_program
-from freecad_mpm.core.program_poses import angles_of
+from freecad_mpm.core import job
+from freecad_mpm.core import machine as machines
+from freecad_mpm.core import planning, posts
+from freecad_mpm.core.control import Control, check_program, dialects, kinematics
+from freecad_mpm.core.control.poses import angles_of
+from freecad_mpm.core.job import control_deviation_deg
 
 # 0: through the pole itself; the others: within the cone of 0.0004 degrees, just outside of it, and farther
 DISTANCES_DEG = [0.0, 1e-7, 2e-4, 3.9e-4, 4.1e-4, 1e-3, 0.02, 0.5]

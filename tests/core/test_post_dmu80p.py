@@ -9,10 +9,10 @@ import pytest
 from machine_samples import dmu80p, program_of, two_passes
 
 from freecad_mpm.core import posts
-from freecad_mpm.core.errors import InputError
+from freecad_mpm.core.base import InputError
+from freecad_mpm.core.machine import Moves
+from freecad_mpm.core.posts import PostOptions, Program, ProgramTool, program_name
 from freecad_mpm.core.posts.dmu80p import write
-from freecad_mpm.core.posts.options import PostOptions
-from freecad_mpm.core.posts.program import Moves, Program, ProgramTool, program_name
 
 # A short program of the 45 degree head, tilts of 12 to 14 degrees, with its joint values given.
 ANGLES = [(173.9668, 17.0019)] * 2 + [

@@ -8,10 +8,11 @@ from functools import cache
 import pytest
 from machine_samples import program_of, two_passes
 
-from freecad_mpm.core import dialects, machines, posts
-from freecad_mpm.core.errors import InputError
-from freecad_mpm.core.posts.options import NAMES, PostOptions
-from freecad_mpm.core.program_check import check_program
+from freecad_mpm.core import machine, posts
+from freecad_mpm.core.base import InputError
+from freecad_mpm.core.control import check_program, dialects
+from freecad_mpm.core.posts import PostOptions
+from freecad_mpm.core.posts.options import NAMES
 
 KIND, TIP, AXIS, FEED = two_passes()
 MACHINE = "table_bc"
@@ -21,7 +22,7 @@ SIEMENS, FANUC = ["sinumerik", "sinumerik_vectors"], ["fanuc", "fanuc_vectors"]
 
 @cache
 def program():
-    return program_of(KIND, TIP, AXIS, FEED, machines.load(MACHINE))
+    return program_of(KIND, TIP, AXIS, FEED, machine.load(MACHINE))
 
 
 def text_with(post, **options):
@@ -59,7 +60,7 @@ def test_an_option_shows_and_the_program_still_passes(post, options, shown):
     text = text_with(post, **options)
     assert re.search(shown, text, re.M)
     assert not re.search(shown, text_with(post), re.M) or post == "apt"
-    result = check_program(dialects.read(text, posts.load(post).dialect), machines.load(MACHINE), TIP, AXIS)
+    result = check_program(dialects.read(text, posts.load(post).dialect), machine.load(MACHINE), TIP, AXIS)
     assert result.findings == []
 
 

@@ -7,19 +7,13 @@ import numpy as np
 import pytest
 from machine_samples import directions, dmu80p, program_of, two_passes, with_rotary
 
-from freecad_mpm.core import program_report
-from freecad_mpm.core.cl_walk import Walk, angle_deg
-from freecad_mpm.core.control import Control
-from freecad_mpm.core.dialects.din_iso import read
+from freecad_mpm.core.control import Control, check_program
+from freecad_mpm.core.control.check import check_continuity, check_grammar, check_limits, check_round_trip
+from freecad_mpm.core.control.dialects.din_iso import read
+from freecad_mpm.core.control.state import check_state
+from freecad_mpm.core.control.walk import Walk, angle_deg
 from freecad_mpm.core.posts.dmu80p import write
-from freecad_mpm.core.program_check import (
-    check_continuity,
-    check_grammar,
-    check_limits,
-    check_program,
-    check_round_trip,
-    check_state,
-)
+from freecad_mpm.core.program import report as program_report
 
 KIND, TIP, AXIS, FEED = two_passes()
 GOOD = write(program_of(KIND, TIP, AXIS, FEED))

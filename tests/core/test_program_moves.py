@@ -10,10 +10,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from freecad_mpm.core import cutting, kinematics, machines, planning, posts
-from freecad_mpm.core.errors import InputError
+from freecad_mpm.core import machine, planning, posts, removal
+from freecad_mpm.core.base import InputError
+from freecad_mpm.core.control import kinematics, read_program
 from freecad_mpm.core.job import FootprintSpec, Job, MethodSpec, Part, PostSpec, Tolerance, ToolSpec
-from freecad_mpm.core.program_moves import read_program
 
 
 @pytest.fixture(scope="module")
@@ -44,7 +44,7 @@ def test_a_program_cuts_what_its_path_cuts(post: str, plans: Callable[[str], Sim
     made = plans(post)
     moves = read_program(made.file, "dmu80p")
     scene = made.plan.scene
-    path, text = (cutting.cut(scene, one, 3.0, with_stock=False) for one in (made.plan.path, moves))
+    path, text = (removal.cut(scene, one, 3.0, with_stock=False) for one in (made.plan.path, moves))
     difference = text.deviation.deviation_mm - path.deviation.deviation_mm
     # Words have three decimals at worst, and the rotary axes leave the great circle by the chord tolerance; where a ray
     # passes beside the tool's side a little more makes a large difference.
@@ -70,4 +70,4 @@ def test_what_cannot_be_read_is_one_line(tmp_path: Path) -> None:
     empty = tmp_path / "empty.I"
     empty.write_text("%MPM01 G71 *\r\nN10 M5 *\r\nN99999 %MPM01 G71 *\r\n")
     with pytest.raises(InputError, match="found none"):
-        read_program(str(empty), machines.load("dmu80p").name)
+        read_program(str(empty), machine.load("dmu80p").name)

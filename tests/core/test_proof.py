@@ -7,12 +7,13 @@ import pytest
 from machine_samples import directions as unit
 from machine_samples import with_rotary
 
-from freecad_mpm.core import cli, dialects, kinematics, machines, posts
-from freecad_mpm.core.control import Control
+from freecad_mpm.core import machine as machines
+from freecad_mpm.core import posts
+from freecad_mpm.core.commands import cli
+from freecad_mpm.core.control import Control, check_program, dialects, kinematics
 from freecad_mpm.core.job import Job, MachineSpec, Part, PostSpec, ToolSpec
-from freecad_mpm.core.program_check import check_program
-from freecad_mpm.core.proof import directions, proof_file, proof_program
-from freecad_mpm.core.shop import find_shop
+from freecad_mpm.core.program import find_shop, proof_file
+from freecad_mpm.core.program.proof import directions, proof_program
 
 BOX = (np.array([-60.0, -40.0, 0.0]), np.array([80.0, 60.0, 45.0]))
 TOLD = re.compile(r"TILT (\S+) TOWARDS AZIMUTH (\S+) - TOOL POINTS TO (\S+) (\S+) (\S+)")

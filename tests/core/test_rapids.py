@@ -6,13 +6,11 @@ import numpy as np
 import pytest
 
 from freecad_mpm import _core
-from freecad_mpm.core import machines
+from freecad_mpm.core import machine as machines
+from freecad_mpm.core.base import MACHINES, Stages
 from freecad_mpm.core.job import PostSpec
-from freecad_mpm.core.machine_path import machine_path
-from freecad_mpm.core.plan import Path
-from freecad_mpm.core.rapids import with_rapids_proven
-from freecad_mpm.core.resources import MACHINES
-from freecad_mpm.core.stages import Stages
+from freecad_mpm.core.machine import joint_path, with_rapids_proven
+from freecad_mpm.core.path import ToolPath
 
 KNOTS = np.array([0.0, 0.0, 1.0, 1.0])
 TOOL = _core.Tool(6.7, 6.0, 6.0, 60.0, [])
@@ -32,7 +30,7 @@ def turning_rapid(walls, tcp=True, height=0.0):
     tip = np.array([[0, 0, height], [0, 0, height], [0, 0, height + 9.0]], dtype=float)
     axis = np.array([[s * np.sin(TILT), 0, np.cos(TILT)] for s in (1, -1, -1)])
     kind = np.array(["rapid", "rapid", "retract"])
-    joints = machine_path(
+    joints = joint_path(
         machine,
         kind,
         tip,
@@ -41,7 +39,9 @@ def turning_rapid(walls, tcp=True, height=0.0):
         axis_tolerance_deg=0.01,
         tip_tolerance_mm=None if tcp else 0.01,
     )
-    path = Path(kind, tip, axis, *np.zeros((3, 3)), np.zeros(3, dtype=bool), np.array([False, False, True]))
+    path = ToolPath(
+        kind, tip, axis, *np.zeros((3, 3)), np.zeros(3, dtype=bool), np.array([False, False, True])
+    )
     found = with_rapids_proven(
         SimpleNamespace(post=PostSpec(tcp=tcp)),
         SimpleNamespace(machine=machine),

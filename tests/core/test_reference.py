@@ -9,8 +9,10 @@ import pytest
 from reference import Patch, tilt_of
 
 from freecad_mpm import _core
-from freecad_mpm.core import job, part_file, planning
-from freecad_mpm.core.stages import Stages
+from freecad_mpm.core import job
+from freecad_mpm.core.base import Stages
+from freecad_mpm.core.part import file, prepare
+from freecad_mpm.core.positioning import lay_out
 
 TWO_CONTACTS = _core.POSITION_STATUS.index("two_contacts")
 SIDE_MM, EVERY = 150.0, 95
@@ -21,12 +23,12 @@ TILT_DEG = 2e-4  # where both contacts are about to merge, 1e-9 mm of depth is a
 def test_tilts_are_those_of_brute_force(name: str) -> None:
     spec = job.load(f"resources/examples/{name}.toml")
     stages = Stages(threads=1)
-    scene = planning.prepare(spec, None, stages)
-    points = planning.lay_out(spec, scene, stages).points[::EVERY]
+    scene = prepare(spec, None, stages)
+    points = lay_out(spec, scene, stages).points[::EVERY]
     positioner = _core.Positioner("exact", scene.model, scene.tool)
     placed = positioner.place(points, context=_core.Context(1))
     assert np.count_nonzero(placed["status"] == TWO_CONTACTS) >= len(points) - 2
-    (face,) = part_file.read_part(f"resources/examples/{name}.step")
+    (face,) = file.read_part(f"resources/examples/{name}.step")
     patch = Patch(np.asarray(face.poles).reshape(4, 4, -1)[..., :3])
     tool = spec.tool
     for k, point in enumerate(points):

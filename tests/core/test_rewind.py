@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 from part_samples import TOOL
 
-from freecad_mpm.core import cli, job, planning
-from freecad_mpm.core.resources import MACHINES
-from freecad_mpm.core.rewind import rewinds
+from freecad_mpm.core import job, planning
+from freecad_mpm.core.base import MACHINES
+from freecad_mpm.core.commands import cli
+from freecad_mpm.core.machine import rewinds
 
 JOB = """
 [part]

@@ -8,10 +8,12 @@ import numpy as np
 import pytest
 from test_cutting import BALL_MM, BOX, passes_over, plane, scene_of
 
-from freecad_mpm.core import cutting, planes, section_picture
-from freecad_mpm.core.errors import InputError
-from freecad_mpm.core.faces import FaceArrays
-from freecad_mpm.core.plane_curve import curve
+from freecad_mpm.core import removal
+from freecad_mpm.core.base import InputError
+from freecad_mpm.core.part import FaceArrays
+from freecad_mpm.core.pictures import section
+from freecad_mpm.core.removal import planes
+from freecad_mpm.core.removal.plane_curve import curve
 
 SIDE_STEP = 3.0
 
@@ -52,7 +54,7 @@ def test_scallops_in_any_plane_have_their_closed_form(text: str) -> None:
     """A ball's passes along y on a plane that rises along x: the groove is r - sqrt(r^2 - d^2) high, d along
     the slope from its middle."""
     slope, named = 0.5, planes.parse(text)
-    cut = cutting.cut(scene_of(plane(slope)), passes_over(slope, SIDE_STEP), 2.0, box=BOX, with_stock=False)
+    cut = removal.cut(scene_of(plane(slope)), passes_over(slope, SIDE_STEP), 2.0, box=BOX, with_stock=False)
     found = cut.section(named.origin, named.normal, 0.05)
     offset = (found.points - named.origin) @ np.array(named.normal)
     assert np.abs(offset).max() < 1e-9
@@ -68,7 +70,7 @@ def test_scallops_in_any_plane_have_their_closed_form(text: str) -> None:
 
 def test_a_level_section_of_a_slope_runs_along_one_pass() -> None:
     slope = 0.5
-    cut = cutting.cut(scene_of(plane(slope)), passes_over(slope, SIDE_STEP), 2.0, box=BOX, with_stock=False)
+    cut = removal.cut(scene_of(plane(slope)), passes_over(slope, SIDE_STEP), 2.0, box=BOX, with_stock=False)
     for x in (9.0, 10.5):
         found = cut.section((0, 0, slope * x), (0, 0, 1))
         along = (x % SIDE_STEP) * np.hypot(1, slope)
@@ -109,8 +111,8 @@ def test_table_and_picture_of_a_closed_section() -> None:
     scene = scene_of(bowl())
     path = passes_over(0.0, SIDE_STEP)
     path.tip[:, 2] += 45  # nothing is cut
-    found = cutting.cut(scene, path, 2.0, with_stock=False).section((0, 0, 5), (0, 0, 1), 0.5)
+    found = removal.cut(scene, path, 2.0, with_stock=False).section((0, 0, 5), (0, 0, 1), 0.5)
     rows = list(csv.DictReader(found.to_csv().splitlines()))
     assert len(rows) == len(found.points) and {row["piece"] for row in rows} == {"0"}
     assert float(rows[-1]["way_mm"]) == pytest.approx(2 * np.pi * 10, rel=1e-3)
-    assert section_picture.render(found, "circle").startswith(b"\x89PNG")
+    assert section.render(found, "circle").startswith(b"\x89PNG")

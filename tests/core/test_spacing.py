@@ -11,14 +11,16 @@ import numpy as np
 import pytest
 
 from freecad_mpm import _core
-from freecad_mpm.core import cl_file, job, planning, report, spacing, spins, strip, tools, verification
-from freecad_mpm.core.errors import InputError
-from freecad_mpm.core.faces import FaceArrays
+from freecad_mpm.core import job, planning
+from freecad_mpm.core.base import EXAMPLES, TOOLS, InputError, Stages
 from freecad_mpm.core.job import FootprintSpec, Job, MethodSpec, Part, Setup
-from freecad_mpm.core.motions import middle_angle_deg
-from freecad_mpm.core.plan import Plan
-from freecad_mpm.core.resources import EXAMPLES, TOOLS
-from freecad_mpm.core.stages import Stages
+from freecad_mpm.core.job import tool as tools
+from freecad_mpm.core.part import FaceArrays, prepare
+from freecad_mpm.core.path import cl_file, judge
+from freecad_mpm.core.path.cuts import middle_angle_deg
+from freecad_mpm.core.planning import Plan
+from freecad_mpm.core.positioning import spacing, spins, strip
+from freecad_mpm.core.report import text as report
 
 WANTED_MM = 8.0
 
@@ -53,7 +55,7 @@ def test_the_plan_is_proven_as_for_any_spin(plan: Plan, tmp_path: Path) -> None:
     assert plan.report["path"]["moves_not_cut"] == 0
     assert plan.report["statement"].endswith("proven")
     (tmp_path / "cl.csv").write_text(cl_file.to_csv(plan, plan.path))
-    assert verification.verify(plan.job, cl_file.read_csv(tmp_path / "cl.csv"), Stages()).good
+    assert judge.verify(plan.job, cl_file.read_csv(tmp_path / "cl.csv"), Stages()).good
 
 
 def test_the_report_says_how_well_it_was_kept(plan: Plan) -> None:
@@ -121,7 +123,7 @@ def test_a_middle_angle_takes_the_shorter_way() -> None:
 
 
 def test_the_spread_agrees_with_one_spin_at_a_time(saddle_job: Job) -> None:
-    scene = planning.prepare(saddle_job, None, Stages())
+    scene = prepare(saddle_job, None, Stages())
     points, spin_deg = np.array([[40.0, 60.0], [110.0, 90.0]]), np.array([-90.0, 0.0, 30.0])
     found = spins.spread(saddle_job, scene, points, spin_deg, 0.05, Stages())
     for k, one in enumerate(spin_deg):

@@ -10,8 +10,8 @@ import pytest
 from part_samples import EXAMPLES, shared
 
 from freecad_mpm import _core, _occt
-from freecad_mpm.core.faces import FaceArrays
-from freecad_mpm.core.part_file import read_part
+from freecad_mpm.core.part import FaceArrays
+from freecad_mpm.core.part.file import read_part
 
 SAMPLES = 200
 EPS = np.finfo(float).eps

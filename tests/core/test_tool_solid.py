@@ -5,10 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from freecad_mpm.core import tool_solid, tools
-from freecad_mpm.core.model import native_tool
-from freecad_mpm.core.resources import TOOLS
-from freecad_mpm.core.tools import Segment, ToolSpec
+from freecad_mpm.core.base import TOOLS
+from freecad_mpm.core.job import Segment, ToolSpec
+from freecad_mpm.core.job import tool as tools
+from freecad_mpm.core.part.scene import native_tool
+from freecad_mpm.core.playback import tool_solid
 
 SHIPPED = sorted(TOOLS.glob("*.toml"))
 SPECIAL = {

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from freecad_mpm.core import tools
-from freecad_mpm.core.errors import InputError
-from freecad_mpm.core.model import native_tool
-from freecad_mpm.core.resources import TOOLS
+from freecad_mpm.core.base import TOOLS, InputError
+from freecad_mpm.core.job import tool as tools
+from freecad_mpm.core.part.scene import native_tool
 
 SHIPPED = sorted(path.stem for path in TOOLS.glob("*.toml"))
 

@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from freecad_mpm import _core
-from freecad_mpm.core import job, planning
-from freecad_mpm.core.resources import EXAMPLES
-from freecad_mpm.core.stages import Stages
+from freecad_mpm.core import job, part
+from freecad_mpm.core.base import EXAMPLES, Stages
 
 # Beside the rim of the die's hole: the first contact lies on the edge, and the other face's border 1e-8 mm higher.
 POINTS = np.array([[46.36363636, 13.78787879], [40.90909091, 33.48484849], [40.90909091, 35.45454545]])
@@ -17,7 +16,7 @@ STEEPEST_DEG_PER_MM = 1.0  # seen: 0.9
 
 def test_the_borders_own_mismatch_is_no_touch() -> None:
     stages = Stages(threads=1)
-    scene = planning.prepare(job.load(EXAMPLES / "bonnet_die.toml"), None, stages)
+    scene = part.prepare(job.load(EXAMPLES / "bonnet_die.toml"), None, stages)
     positioner = _core.Positioner("exact", scene.model, scene.tool)
     tilts = []
     for aside in ((0, 0), (ASIDE_MM, 0), (-ASIDE_MM, 0), (0, ASIDE_MM), (0, -ASIDE_MM)):

@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 
 from freecad_mpm.core.job import Tolerance
-from freecad_mpm.core.plan import Path, Positions
-from freecad_mpm.core.verdict import gaps, judge
+from freecad_mpm.core.path import ToolPath
+from freecad_mpm.core.positioning import Positions
+from freecad_mpm.core.report import judge
+from freecad_mpm.core.report.verdict import gaps
 
 TOLERANCE = Tolerance(gouge_mm=0.01, chord_mm=0.1)
 
@@ -31,12 +33,12 @@ def positions(status: str = "two_contacts", low: float = -np.inf, high: float = 
     )
 
 
-def path(kind: str = "cut", clearance: float = 0.0, blocked: bool = False, proven: bool = True) -> Path:
+def path(kind: str = "cut", clearance: float = 0.0, blocked: bool = False, proven: bool = True) -> ToolPath:
     """One move."""
     zero = np.zeros(1, dtype=int)
     up = np.array([[0.0, 0.0, 1.0]])
     flags = np.array([blocked]), np.array([proven])
-    return Path(np.array([kind]), 0 * up, up, zero, zero, np.array([clearance]), *flags)
+    return ToolPath(np.array([kind]), 0 * up, up, zero, zero, np.array([clearance]), *flags)
 
 
 CASES = [
@@ -65,7 +67,7 @@ CASES = [
 
 @pytest.mark.parametrize(("case", "where", "moves", "machine", "guarantee", "trouble"), CASES)
 def test_verdict(
-    case: str, where: Positions, moves: Path, machine: list[str], guarantee: str, trouble: str | None
+    case: str, where: Positions, moves: ToolPath, machine: list[str], guarantee: str, trouble: str | None
 ) -> None:
     verdict = judge(where, moves, machine, TOLERANCE, guarantee, False)
     assert verdict.good is (trouble is None)
@@ -78,7 +80,7 @@ def test_a_cut_that_is_left_out_is_trouble_unless_it_is_allowed() -> None:
     """Two positions of one pass, each plunged to."""
     one, plunges = positions(low=0.0), path("plunge")
     two = Positions(**{name: np.concatenate((value, value)) for name, value in vars(one).items()})
-    moves = Path(**{name: np.concatenate((value, value)) for name, value in vars(plunges).items()})
+    moves = ToolPath(**{name: np.concatenate((value, value)) for name, value in vars(plunges).items()})
     moves.position[:] = (0, 1)
     assert gaps(two, moves).tolist() == [1]
     strict, lenient = (judge(two, moves, [], TOLERANCE, "proven", allowed) for allowed in (False, True))

@@ -9,7 +9,7 @@ import pytest
 from parts import COARSE, TOP, free_form_block
 
 import freecad_mpm
-from freecad_mpm.core.errors import Cancelled, InputError
+from freecad_mpm.core.base import Cancelled, InputError
 from freecad_mpm.document import cl_path, compat, hooks
 
 
@@ -24,12 +24,12 @@ def test_without_a_job_one_is_made_with_a_bull_nose(doc: Any, block: Any) -> Non
 
 
 def test_the_tool_made_without_asking_is_the_shipped_hollow_one(doc: Any, block: Any) -> None:
-    from freecad_mpm.core import tools
-    from freecad_mpm.core.resources import TOOLS
+    from freecad_mpm.core.base import TOOLS
+    from freecad_mpm.core.job import tool
     from freecad_mpm.document.job_spec import tool_of
 
     op = freecad_mpm.create(doc, [(block, TOP)], **COARSE)
-    shipped, ours = tools.load(TOOLS / "thesis.toml"), tool_of(op)
+    shipped, ours = tool.load(TOOLS / "thesis.toml"), tool_of(op)
     for name in ("major_radius_mm", "minor_radius_mm", "recess_mm", "flute_length_mm", "shank"):
         assert getattr(ours, name) == pytest.approx(getattr(shipped, name)), name
 

@@ -11,7 +11,7 @@ from FreeCAD import Placement, Rotation, Vector
 from parts import wave
 
 from freecad_mpm import _core
-from freecad_mpm.core.errors import InputError
+from freecad_mpm.core.base import InputError
 from freecad_mpm.document import faces
 
 CHORD_MM = 0.001

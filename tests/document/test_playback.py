@@ -9,7 +9,7 @@ import FreeCAD
 import numpy as np
 import pytest
 
-from freecad_mpm.core.errors import InputError
+from freecad_mpm.core.base import InputError
 from freecad_mpm.document import cl_path, computation, playback
 
 

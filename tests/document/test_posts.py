@@ -11,11 +11,11 @@ from parts import COARSE, TOP, free_form_block
 from stock_post import post_process
 
 import freecad_mpm
-from freecad_mpm.core import machines
+from freecad_mpm.core import machine
 from freecad_mpm.core import posts as core_posts
-from freecad_mpm.core.dialects import din_iso
-from freecad_mpm.core.errors import InputError
-from freecad_mpm.core.program_check import check_round_trip
+from freecad_mpm.core.base import InputError
+from freecad_mpm.core.control.check import check_round_trip
+from freecad_mpm.core.control.dialects import din_iso
 from freecad_mpm.document import cl_path, compat, posts, program
 
 TIP_MM, AXIS_DEG = 0.001, 0.001
@@ -53,7 +53,7 @@ def test_freecads_command_writes_what_ours_writes(op: Any, job: Any, tmp_path: P
 def test_the_program_takes_the_tool_where_the_path_does(op: Any, job: Any, tmp_path: Path) -> None:
     read = din_iso.read(post_process(job, tmp_path / "stock.I").decode("ascii"))
     moves = cl_path.from_commands(op.Path.Commands)
-    trip = check_round_trip(read, machines.load(op.Machine), moves.tip, moves.axis)
+    trip = check_round_trip(read, machine.load(op.Machine), moves.tip, moves.axis)
     assert trip.findings == []
     assert trip.tip_error_mm <= TIP_MM and trip.axis_error_deg <= AXIS_DEG
 

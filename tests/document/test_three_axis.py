@@ -16,10 +16,9 @@ from parts import COARSE, TOP
 from stock_post import post_process
 
 import freecad_mpm
-from freecad_mpm.core import dialects, machines, posts
-from freecad_mpm.core.control import Control
-from freecad_mpm.core.errors import InputError
-from freecad_mpm.core.program_check import check_program
+from freecad_mpm.core import machine, posts
+from freecad_mpm.core.base import InputError
+from freecad_mpm.core.control import Control, check_program, dialects
 from freecad_mpm.document import compat, program, three_axis
 from freecad_mpm.document.post_arguments import parse
 from freecad_mpm.document.posts import register
@@ -106,7 +105,7 @@ def test_a_pocket_and_our_finishing_make_one_program(
 
 def assert_one_program(text: str, name: str, ops: tuple[Any, Any], control: Control) -> None:
     read = dialects.read(text, posts.load(name).dialect)
-    result = check_program(read, machines.load(ops[1].Machine), *expected(*ops), control)
+    result = check_program(read, machine.load(ops[1].Machine), *expected(*ops), control)
     assert result.findings == [], name
     assert result.tip_error_mm < 0.0005 and result.axis_error_deg < 0.0005
     tools = [block.words["T"] for block in read.blocks if "T" in block.words]

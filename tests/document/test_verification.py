@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from FreeCAD import Vector
 
-from freecad_mpm.core.errors import Cancelled, InputError
+from freecad_mpm.core.base import Cancelled, InputError
 from freecad_mpm.document import cl_path, hooks, verification
 
 RESOLUTION_MM = 1.0
@@ -96,7 +96,7 @@ def test_faces_that_are_not_picked_and_not_cut_are_told_so(op: Any, result: Any)
 def test_the_memory_is_said_before_and_refused_with_what_would_fit(
     op: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from freecad_mpm.core import cut_memory
+    from freecad_mpm.core.removal import memory
 
     lines = []
     with monkeypatch.context() as patch:
@@ -106,7 +106,7 @@ def test_the_memory_is_said_before_and_refused_with_what_would_fit(
         patch.setattr(verification.FreeCAD, "Console", SimpleNamespace(PrintMessage=lines.append))
         verification.verify(op, 2.0)
     assert "A cut at 2 mm takes about" in lines[0] and lines[1] == "started"
-    monkeypatch.setattr(cut_memory, "available", lambda: 5e6)
+    monkeypatch.setattr(memory, "available", lambda: 5e6)
     with pytest.raises(InputError, match=r"Resolution: 0.05 mm takes .* may be used; [\d.]+ mm would fit"):
         verification.verify(op, 0.05)
 

@@ -15,9 +15,10 @@ import numpy as np
 import pytest
 
 from freecad_mpm import _core
-from freecad_mpm.core import cutting, job, planning
-from freecad_mpm.core.resources import EXAMPLES
-from freecad_mpm.core.stages import Stages
+from freecad_mpm.core import job, removal
+from freecad_mpm.core.base import EXAMPLES, Stages
+from freecad_mpm.core.part import prepare
+from freecad_mpm.core.planning import plan
 
 FOLDER = os.environ.get("MPM_MANIFOLD", "")
 ROUND, ARC = 64, 8  # facets round the tool, and along a quarter of the corner
@@ -124,15 +125,15 @@ def pose(path, i, t):
 def test_manifold_agrees_on_a_real_path():
     spec = job.load(EXAMPLES / "saddle.toml")
     spec = replace(spec, method=replace(spec.method, name="vcrf"))
-    path = part_of(planning.plan(spec).path)
+    path = part_of(plan(spec).path)
     spec = replace(spec, tool=replace(spec.tool, recess_mm=0.0, flute_length_mm=HEIGHT, shank=(), holder=()))
-    scene = planning.prepare(spec, None, Stages())
+    scene = prepare(spec, None, Stages())
     segments = hulls(scene.tool, path)
     block = (np.array([30.0, 20.0, 60.0]), np.array([90.0, 130.0, 110.0]))
     points = np.random.default_rng(5).uniform([36, 26], [84, 124], (1500, 2))
 
     theirs = foreign_heights(block, segments, points)
-    sweep = cutting.tool_sweep(scene, path)
+    sweep = removal.tool_sweep(scene, path)
     ours = our_heights(sweep, block, points)
     beside = [our_heights(sweep, block, points + aside) for aside in ASIDE]
 

@@ -6,8 +6,8 @@ import json
 
 import pytest
 
-from freecad_mpm.core import published
-from freecad_mpm.core.published import CASES, EXCHANGED, THESIS
+from freecad_mpm.core.bench import published
+from freecad_mpm.core.bench.published import CASES, EXCHANGED, THESIS
 
 BY_LABEL = {case.label: case for case in CASES}
 CLOSE_MM = 0.05

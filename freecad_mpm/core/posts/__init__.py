@@ -1,44 +1,12 @@
-"""Posts: each module of this package that has FILE_ENDING, DIALECT, JOINTS, OPTIONS and write(first, *more) is one,
-under its own name."""
+"""What a program says: one description (`Program`), one small writer a control. It never reads a program.
+
+`load(name)` gives a post, `names()` all of them.
+To add a post: one file with FILE_ENDING, DIALECT, JOINTS, OPTIONS and write; one script in `document/posts`."""
 
 from __future__ import annotations
 
-import pkgutil
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from importlib import import_module
-from typing import Any
-
-from ..errors import InputError
-from . import options
 from .options import PostOptions
+from .program import PROGRAM_NAME, Program, ProgramTool, program_name
+from .registry import Post, load, names
 
-# Modules that posts share.
-_NOT_POSTS = {"iso6983", "options", "program", "tnc", "writing"}
-
-
-@dataclass(frozen=True)
-class Post:
-    name: str
-    file_ending: str  # with its dot, as the control expects it
-    dialect: str  # of dialects.READERS: who reads the text back
-    joints: bool  # whether it also writes joint positions, for a control without tool-centre-point control
-    option_names: frozenset[str]  # those of PostOptions that it reads
-    write: Callable[..., str]  # (first: Program, *more: Program): one program, each part of it with its tool
-
-    def options(self, table: Mapping[str, Any]) -> PostOptions:
-        """Raises InputError for an option that the post does not read, and for a wrong value."""
-        return options.read(table, self.option_names, self.name)
-
-
-def names() -> list[str]:
-    """All posts."""
-    return sorted(module.name for module in pkgutil.iter_modules(__path__) if module.name not in _NOT_POSTS)
-
-
-def load(name: str) -> Post:
-    """The post of that name. Raises InputError naming those there are."""
-    if name not in names():
-        raise InputError(f"post '{name}': unknown; give one of {', '.join(names())}")
-    module = import_module(f"{__name__}.{name}")
-    return Post(name, module.FILE_ENDING, module.DIALECT, module.JOINTS, module.OPTIONS, module.write)
+__all__ = ["PROGRAM_NAME", "Post", "PostOptions", "Program", "ProgramTool", "load", "names", "program_name"]

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import chain
 
-from ..errors import InputError
+from ..base import Floats, InputError
 from . import tnc
-from .program import Floats, Program
+from .program import Program
 from .writing import description, first_rotary, move_lines, rotary_names, with_stops, words
 
 FILE_ENDING = ".I"

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from ..base import Floats
 from .options import COMMON
-from .program import Floats, Program
+from .program import Program
 from .writing import VECTOR_DECIMALS, Style, move_lines, rotary_names, with_stops, words
 
 OPTIONS = COMMON

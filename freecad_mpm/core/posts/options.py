@@ -6,13 +6,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from typing import Any, ClassVar
 
-from ..checks import choice, flag, not_negative, positive, whole
-from ..errors import InputError
-from ..sections import Section, key
+from ..base import InputError, Table, choice, flag, key, not_negative, positive, whole
 
 
 @dataclass(frozen=True, kw_only=True)
-class PostOptions(Section):
+class PostOptions(Table):
     """Each post reads some of them and names those in its OPTIONS."""
 
     table: ClassVar[str] = "post.options"

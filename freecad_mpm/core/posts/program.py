@@ -7,55 +7,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..errors import InputError
-from ..machines import Machine
+from ..base import Floats, InputError
+from ..machine import Machine, Moves, check_array
 from .options import PostOptions
-
-Floats = NDArray[np.float64]
-Names = NDArray[np.str_]
-
-# What a move is for; all but rapids run at their feed.
-MOVE_KINDS = ("rapid", "plunge", "cut", "retract", "link")
 
 # Letters of a program's name, and how many the controls in the field take.
 PROGRAM_NAME = re.compile(r"[A-Z0-9_]{1,16}")
 MAX_NAME_LENGTH = 16
-
-
-@dataclass(frozen=True)
-class Moves:
-    """M moves in machining order; move i ends in row i and starts in row i - 1. Set-up frame."""
-
-    kind: Names  # (M,), of MOVE_KINDS
-    tip: Floats  # (M, 3) mm
-    axis: Floats  # (M, 3) unit, from the tip to the spindle
-    angles_deg: Floats  # (M, 2) readings of the machine's rotary axes, from the part to the tool, unwound
-    feed_mm_per_min: Floats  # (M,) of the tip; rapids: not read
-
-    def __post_init__(self) -> None:
-        count = len(self.kind)
-        for name, shape in (("tip", (count, 3)), ("axis", (count, 3)), ("angles_deg", (count, 2))):
-            _check_array(name, getattr(self, name), shape)
-        unknown = sorted(set(self.kind.tolist()) - set(MOVE_KINDS))
-        if unknown:
-            raise InputError(f"kind: must be of {', '.join(MOVE_KINDS)}, got {', '.join(unknown)}")
-        _check_array(
-            "feed_mm_per_min", self.feed_mm_per_min[~self.is_rapid], (int(np.count_nonzero(~self.is_rapid)),)
-        )
-        slow = np.flatnonzero(~self.is_rapid & ~(self.feed_mm_per_min > 0))
-        if len(slow):
-            raise InputError(
-                f"feed_mm_per_min[{slow[0]}]: must be positive, got {self.feed_mm_per_min[slow[0]]}"
-            )
-
-    def __len__(self) -> int:
-        return len(self.kind)
-
-    @property
-    def is_rapid(self) -> NDArray[np.bool_]:
-        return np.asarray(self.kind == "rapid")
 
 
 @dataclass(frozen=True)
@@ -115,18 +74,10 @@ class Program:
         if len(self.moves) == 0 or self.moves.kind[0] != "rapid":
             raise InputError("moves: the first must be a rapid to a place clear of the part")
         if self.axes_mm is not None:
-            _check_array("axes_mm", self.axes_mm, (len(self.moves), 3))
+            check_array("axes_mm", self.axes_mm, (len(self.moves), 3))
 
 
 def program_name(title: str) -> str:
     """A name that every control takes, made from any text."""
     name = re.sub(r"[^A-Z0-9_]+", "_", title.upper()).strip("_")[:MAX_NAME_LENGTH]
     return name or "MPM"
-
-
-def _check_array(name: str, array: Floats, shape: tuple[int, ...]) -> None:
-    if array.shape != shape:
-        raise InputError(f"{name}: must have shape {shape}, got {array.shape}")
-    if not np.isfinite(array).all():
-        row = np.flatnonzero(~np.isfinite(array.reshape(len(array), -1)).all(axis=1))[0]
-        raise InputError(f"{name}[{row}]: must be finite")

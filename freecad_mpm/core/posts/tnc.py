@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from ..errors import InputError
+from ..base import Floats, InputError
 from .options import COMMON
-from .program import Floats, Program
+from .program import Program
 from .writing import Style, rotary_names, rounded
 
 OPTIONS = COMMON | {"blank", "retract", "path_tolerance_mm", "rotary_tolerance_deg", "smoothing"}

@@ -6,8 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import chain
 
+from ..base import Floats
 from . import tnc
-from .program import Floats, Program
+from .program import Program
 from .writing import VECTOR_DECIMALS, description, first_rotary, move_lines, rotary_names, with_stops, words
 
 FILE_ENDING = ".H"

@@ -7,12 +7,9 @@ from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..errors import InputError
-from .program import Floats, Program, ProgramTool
-
-Flags = NDArray[np.bool_]
+from ..base import Flags, Floats, InputError
+from .program import Program, ProgramTool
 
 VECTOR_DECIMALS = 7  # 1e-7 of a unit vector is 0.000006 degrees
 FEED_DECIMALS = 3

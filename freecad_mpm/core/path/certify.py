@@ -1,0 +1,42 @@
+"""Certificates of moves between two poses."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ... import _core
+from ..base import Floats, Integers, Stages
+from ..job import Job, control_deviation_deg, control_tip_deviation_mm
+from ..part import Scene
+
+STAGE = "motions"
+
+
+def certify(
+    job: Job,
+    scene: Scene,
+    tip: Floats,
+    axis: Floats,
+    ends: Integers,
+    depth_mm: Floats | float,
+    stages: Stages,
+) -> dict[str, Any]:
+    """Certificates of the moves that lead to the rows `ends` (K,) of tip, axis (N, 3) from the rows before them, which
+    may cut in by depth_mm, one or (K,): lo, hi (K,) mm, verdict (K,) names, cells (K,). A tip that is off its line
+    takes as much off the clearance."""
+    tip_off = control_tip_deviation_mm(job)
+    found = stages.run_native(
+        STAGE,
+        _core.certify_motions,
+        scene.cells,
+        scene.tool,
+        tip[ends - 1],
+        axis[ends - 1],
+        tip[ends],
+        axis[ends],
+        tolerance_mm=depth_mm - tip_off,
+        axis_deviation_deg=control_deviation_deg(job),
+    )
+    return {**found, "lo": found["lo"] - tip_off, "verdict": np.array(_core.VERDICTS)[found["verdict"]]}

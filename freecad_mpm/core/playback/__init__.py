@@ -1,0 +1,27 @@
+"""Where tool and machine are at any moment, by time, way or position; their bodies as meshes.
+
+The machine is a sketch, never used to judge a collision.
+To add a body: its mesh in `sketch.py`, its matrix in `bodies.py`."""
+
+from __future__ import annotations
+
+from . import bodies, playback, sketch, tool_solid
+from .playback import Playback, Visited, describe, make_playback
+from .style import TOOL_COLOURS, Colour, colour_of, table_letters
+from .tool_solid import Mesh
+
+__all__ = [
+    "Colour",
+    "Mesh",
+    "Playback",
+    "TOOL_COLOURS",
+    "Visited",
+    "bodies",
+    "colour_of",
+    "describe",
+    "make_playback",
+    "playback",
+    "sketch",
+    "table_letters",
+    "tool_solid",
+]

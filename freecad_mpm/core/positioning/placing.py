@@ -1,0 +1,81 @@
+"""Placing the tool over a footprint."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ... import _core
+from ..base import Stages, blame
+from ..job import Job, MethodSpec
+from ..part import Scene
+from . import spacing
+from .footprint import Footprint
+from .methods import method_options
+from .positions import Positions
+
+
+def make_positioner(job: Job, scene: Scene, stages: Stages) -> _core.Positioner:
+    """The job's method made ready for the scene: what it precomputes counts as the stage "index"."""
+    method = job.method
+
+    def make(context: _core.Context) -> _core.Positioner:
+        return _core.Positioner(
+            method.name,
+            scene.model,
+            scene.tool,
+            tilt_max_deg=method.tilt_max_deg,
+            spin_deg=method.spin_deg,
+            options=method_options(job),
+            cells=scene.cells,
+        )
+
+    with blame(f"{job.source}: [{method.table}]"):
+        return stages.run_native("index", make)
+
+
+def place(
+    job: Job, scene: Scene, positioner: _core.Positioner, footprint: Footprint, stages: Stages
+) -> tuple[Positions, spacing.Nearest, dict[str, int]]:
+    """Positions in the set-up frame, what contact spacings come nearest to a wanted one, and the method's counters."""
+    method, nearest = job.method, spacing.Nearest()
+    with blame(f"{job.source}: [{MethodSpec.table}]"):
+        if method.contact_spacing_mm:
+            placed = stages.run_native(
+                "positions",
+                positioner.place_spaced,
+                footprint.points,
+                footprint.pass_index,
+                method.contact_spacing_mm,
+                measure=method.spacing_measure,
+                feed=spacing.feed(job.footprint.direction_deg),
+            )
+            placed.pop("contact_spacing_mm")
+            nearest = spacing.Nearest(footprint.points, placed.pop("nearest_spacing_mm"))
+        else:
+            placed = stages.run_native("positions", positioner.place, footprint.points)
+    counters = placed.pop("counters")
+    return sample(scene, as_positions(footprint, placed), stages, "judge"), nearest, counters
+
+
+def as_positions(footprint: Footprint, placed: dict[str, Any]) -> Positions:
+    """What a positioner placed over the footprint."""
+    status = np.array(_core.POSITION_STATUS)[placed.pop("status")]
+    of_footprint = np.zeros(len(footprint.points), dtype=bool)
+    return Positions(**placed, status=status, pass_index=footprint.pass_index, inserted=of_footprint)
+
+
+def sample(scene: Scene, positions: Positions, stages: Stages, stage: str) -> Positions:
+    """The same positions; a second opinion by dense sampling has lowered the upper bounds of their clearances."""
+    usable = positions.usable
+    sampled = stages.run_native(
+        stage,
+        _core.sampled_clearance,
+        scene.model,
+        scene.tool,
+        positions.tip[usable],
+        positions.axis[usable],
+    )
+    positions.clearance[usable, 1] = np.minimum(positions.clearance[usable, 1], sampled)
+    return positions

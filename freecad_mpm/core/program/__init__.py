@@ -1,0 +1,23 @@
+"""The program of a job: described, written by its post, read back by the control; the proof program; its figures.
+
+What is handed over has been read back.
+To add a figure of programs: a field of `ProgramReport`."""
+
+from __future__ import annotations
+
+from .file import check_file
+from .making import Made, ProgramFile, Shop, describe, find_shop, make_program, read_back, told
+from .proof import proof_file
+
+__all__ = [
+    "Made",
+    "ProgramFile",
+    "Shop",
+    "check_file",
+    "describe",
+    "find_shop",
+    "make_program",
+    "proof_file",
+    "read_back",
+    "told",
+]
