@@ -42,7 +42,7 @@ def moves_of(tip, axis, feed_mm_per_s, kind=None):
         np.full(count, 60.0 * feed_mm_per_s),
         axis_tolerance_deg=180.0,
     )
-    linear = kinematics.linear_readings(machine, moves.tip, moves.angles_deg, np.zeros(3), 150.0)
+    linear = kinematics.linear_readings(machine, moves.tip, moves.rotary_deg, np.zeros(3), 150.0)
     return moves, linear
 
 

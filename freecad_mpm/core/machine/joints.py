@@ -128,7 +128,7 @@ def joint_path(
         kind=kind[source],
         tip=joints["tip"][keep],
         axis=joints["axis"][keep],
-        angles_deg=joints["rotary_deg"][keep],
+        rotary_deg=joints["rotary_deg"][keep],
         feed_mm_per_min=feed_mm_per_min[source],
         linear_mm=joints["linear_mm"][keep],
         source=source,
@@ -148,13 +148,13 @@ def _with_turns_at_the_top(machine: Machine, path: JointPath, keeps: Flags) -> J
     z = path.linear_mm[:, 2].max() + ABOVE_ALL_MM if np.isinf(limit) else limit - BELOW_END_MM
     before = np.repeat(turns - 1, 3)
     before[2::3] = before[1::3] = turns
-    linear, angles = path.linear_mm[before], path.angles_deg[before]
+    linear, angles = path.linear_mm[before], path.rotary_deg[before]
     linear[1::3] = path.linear_mm[turns - 1]
     linear[:, 2] = np.maximum(z, linear[:, 2])
-    angles[0::3] = path.angles_deg[turns - 1]
+    angles[0::3] = path.rotary_deg[turns - 1]
     tip, axis = machine.chain().forward(linear, angles, setup=machine.setup.native())
     given = np.repeat(turns, 3)
-    inserted = {"tip": tip, "axis": axis, "linear_mm": linear, "angles_deg": angles}
+    inserted = {"tip": tip, "axis": axis, "linear_mm": linear, "rotary_deg": angles}
     columns = {
         one.name: np.insert(
             getattr(path, one.name), given, inserted.get(one.name, getattr(path, one.name)[given]), axis=0
@@ -191,9 +191,9 @@ def _with_rapids_in_two(kind: Names, tip: Floats, axis: Floats) -> _Rows:
     )
 
 
-def _redundant(angles_deg: Floats, tip: Floats, turns_first: Flags, travels_first: Flags) -> Flags:
+def _redundant(rotary_deg: Floats, tip: Floats, turns_first: Flags, travels_first: Flags) -> Flags:
     """First rows of rapids that do not turn, or do not travel: their second row does it all."""
-    turn = np.abs(np.diff(angles_deg, axis=0)).max(axis=1, initial=0.0) > SAME_ANGLE_DEG
+    turn = np.abs(np.diff(rotary_deg, axis=0)).max(axis=1, initial=0.0) > SAME_ANGLE_DEG
     travel = np.any(np.diff(tip, axis=0) != 0, axis=1)
     before, after = np.append(False, turn), np.append(turn, False)
     travel_before, travel_after = np.append(False, travel), np.append(travel, False)

@@ -63,7 +63,7 @@ class _Pieces:
 def _pieces(machine: Machine, joints: JointPath, hold_tip: bool) -> _Pieces:
     """Of the rapids. hold_tip: the control keeps the tip on its line, else all five axes run evenly."""
     rapids = np.flatnonzero(joints.kind[1:] == "rapid") + 1
-    turn = np.abs(joints.angles_deg[rapids] - joints.angles_deg[rapids - 1]).max(axis=1)
+    turn = np.abs(joints.rotary_deg[rapids] - joints.rotary_deg[rapids - 1]).max(axis=1)
     counts = np.maximum(np.ceil(turn / PIECE_DEG), 1).astype(np.int64)
     row = np.repeat(rapids, counts)
     number = np.arange(len(row)) - np.repeat(np.cumsum(counts) - counts, counts)
@@ -74,7 +74,7 @@ def _pieces(machine: Machine, joints: JointPath, hold_tip: bool) -> _Pieces:
         return np.asarray((1 - part) * column[row - 1] + part * column[row])
 
     chain, setup = machine.chain(), machine.setup.native()
-    readings = [at(column, when) for when in (start, end) for column in (joints.linear_mm, joints.angles_deg)]
+    readings = [at(column, when) for when in (start, end) for column in (joints.linear_mm, joints.rotary_deg)]
     tip, axis = chain.forward(*readings[:2], setup=setup)
     tip_to, axis_to = chain.forward(*readings[2:], setup=setup)
     tip_off_mm, axis_off_deg = chain.deviation_bound(*readings, setup=setup)

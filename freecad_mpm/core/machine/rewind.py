@@ -51,7 +51,7 @@ def seam(machine: Machine, path: ToolPath, joints: JointPath, move: int) -> floa
     """The fraction of a cut at which the rotary axis that has to rewind reaches its limit; 0 where it can as well rewind
     before the cut begins."""
     rows = np.flatnonzero(joints.source == move)
-    start, end = joints.angles_deg[rows[0] - 1], joints.angles_deg[rows[-1]]
+    start, end = joints.rotary_deg[rows[0] - 1], joints.rotary_deg[rows[-1]]
     axis = int(np.argmax(np.abs(end - start)))
     rotary, up = machine.rotary_axes[axis], end[axis] < start[axis]
     rewound = start[axis] - math.copysign(TURN_DEG, start[axis] - end[axis])
@@ -98,16 +98,8 @@ def interrupted(
 
 def _pose(path: ToolPath, move: int, fraction: float) -> tuple[Floats, Floats]:
     """Tip and axis that far along a cut."""
-    tip = path.tip[move - 1] + fraction * (path.tip[move] - path.tip[move - 1])
-    return tip, _on_great_circle(path.axis[move - 1], path.axis[move], fraction)
-
-
-def _on_great_circle(a: Floats, b: Floats, s: float) -> Floats:
-    """The direction (3,) a fraction s of the way from a to b, which are not opposite."""
-    angle = float(np.arctan2(np.linalg.norm(np.cross(a, b)), a @ b))
-    if np.sin(angle) == 0.0:
-        return a
-    return np.asarray((np.sin((1.0 - s) * angle) * a + np.sin(s * angle) * b) / np.sin(angle))
+    before = move - 1
+    return _core.pose_between(path.tip[before], path.axis[before], path.tip[move], path.axis[move], fraction)
 
 
 def _interruption(
