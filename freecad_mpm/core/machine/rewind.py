@@ -12,7 +12,7 @@ from ... import _core
 from ..base import Floats, Integers, Stages, blame
 from ..job import Job
 from ..part import Scene
-from ..path import ToolPath, link_options
+from ..path import ToolPath, from_core, link_options
 from .joints import JointPath, move_machine
 from .machine import Machine
 
@@ -132,7 +132,7 @@ def _up_and_down(
     context: _core.Context,
 ) -> ToolPath:
     """From a pose to the safe plane and back to it: the link between two positions that are one and the same."""
-    linked = _core.link_passes(
+    found = _core.link_passes(
         scene.cells,
         scene.tool,
         np.array([tip, tip]),
@@ -142,9 +142,9 @@ def _up_and_down(
         options=options,
         context=context,
     )
-    linked["kind"] = np.array(_core.MOVE_KINDS)[linked["kind"]]
-    first, last = np.flatnonzero(linked["position"] >= 0)
-    way = ToolPath(**{name: column[first + 1 : last + 1] for name, column in linked.items()})
+    linked = from_core(found)
+    first, last = np.flatnonzero(linked.position >= 0)
+    way = ToolPath(**{one.name: getattr(linked, one.name)[first + 1 : last + 1] for one in fields(ToolPath)})
     count = len(way)
     return replace(
         way, position=np.full(count, NO_POSITION), pass_index=np.full(count, pass_index, way.pass_index.dtype)

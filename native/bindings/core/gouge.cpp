@@ -94,9 +94,7 @@ void bind_gouge(py::module_& m) {
         py::kw_only(),
         py::arg("tolerance_mm"),
         py::arg("context"),
-        "Certificates of the poses tips, axes (N, 3). Dict of lo, hi (N,) mm, proven and met bounds of the "
-        "clearance (lo of a pose deeper than tolerance_mm: within a thousandth of the depth, or -inf), "
-        "verdict (N,) codes of VERDICTS, cells (N,).");
+        "Certificates of the poses tips, axes (N, 3); free: nothing cuts in deeper than tolerance_mm.");
   m.def("certify_motions",
         &motions,
         py::arg("cells"),
@@ -110,9 +108,9 @@ void bind_gouge(py::module_& m) {
         py::arg("axis_deviation_deg") = DoubleArray(py::float_(0.0)),
         py::arg("context"),
         "Certificates of the moves from each tip, axis (N, 3) to tips_to, axes_to (N, 3): tip on a line, "
-        "axis within axis_deviation_deg of the great circle. tolerance_mm may be cut in; negative, it is the "
-        "clearance asked for. Both are one number or (N,). Dict of lo, hi (N,) mm, proven and met bounds of "
-        "the least clearance (infinite: none), verdict (N,) codes of VERDICTS, cells (N,).");
+        "axis within "
+        "axis_deviation_deg of the great circle. tolerance_mm may be cut in; negative, it is the clearance "
+        "asked for.");
 }
 
 }  // namespace mpm::bindings

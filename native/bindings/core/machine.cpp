@@ -240,25 +240,24 @@ void bind_chain(py::module_& m) {
            py::kw_only(),
            py::arg("setup") = PartSetup{},
            "Readings (N, 3) and (N, 2) -> tip (N, 3) in mm and unit tool axis (N, 3), part frame.")
-      .def(
-          "deviation_bound",
-          &deviations,
-          py::arg("linear_mm"),
-          py::arg("rotary_deg"),
-          py::arg("linear_to_mm"),
-          py::arg("rotary_to_deg"),
-          py::kw_only(),
-          py::arg("setup") = PartSetup{},
-          "All five axes run evenly from readings (N, 3), (N, 2) to others: bounds of how far that takes the "
-          "tip off its\nstraight line, mm (N,), and the axis off its great circle, degrees (N,).")
+      .def("deviation_bound",
+           &deviations,
+           py::arg("linear_mm"),
+           py::arg("rotary_deg"),
+           py::arg("linear_to_mm"),
+           py::arg("rotary_to_deg"),
+           py::kw_only(),
+           py::arg("setup") = PartSetup{},
+           "All five axes run evenly from readings (N, 3), (N, 2) to others: bounds of how far that takes "
+           "the tip off "
+           "its straight line, mm (N,), and the axis off its great circle, degrees (N,).")
       .def("inverse",
            &inverse_all,
            py::arg("tip"),
            py::arg("axis"),
            py::kw_only(),
            py::arg("setup") = PartSetup{},
-           "Both solutions of each pose: dict of rotary_deg (N, 2 solutions, 2 axes), linear_mm (N, 2, 3),\n"
-           "reachable (N,) (else the nearest orientation is given) and pole_distance_deg (N,).");
+           "Both solutions of each pose.");
 }
 
 }  // namespace
@@ -268,19 +267,16 @@ void bind_machine(py::module_& m) {
   bind_setup(m);
   bind_chain(m);
   m.attr("JOINT_STATUS") = to_tuple(kJointStatusNames);
-  m.def(
-      "joint_path",
-      &joint_path_of,
-      py::arg("chain"),
-      py::arg("tip"),
-      py::arg("axis"),
-      py::arg("cutting"),
-      py::kw_only(),
-      py::arg("setup") = PartSetup{},
-      py::arg("pole_cone_deg") = 0.0,
-      "Joints of a whole path (native joint_path.h): tip (N, 3), axis (N, 3), cutting (N,) bool -> dict of "
-      "rotary_deg\n"
-      "(N, 2) unwound, linear_mm (N, 3), branch (N,), at_pole (N,), status (N,) as index into JOINT_STATUS.");
+  m.def("joint_path",
+        &joint_path_of,
+        py::arg("chain"),
+        py::arg("tip"),
+        py::arg("axis"),
+        py::arg("cutting"),
+        py::kw_only(),
+        py::arg("setup") = PartSetup{},
+        py::arg("pole_cone_deg") = 0.0,
+        "Joints of a whole path: tip (N, 3), axis (N, 3), cutting (N,) (native joint_path.h).");
   m.def("refine_path",
         &refine_of,
         py::arg("chain"),
@@ -294,11 +290,10 @@ void bind_machine(py::module_& m) {
         py::arg("tip_tolerance_mm") = kInfinity,
         py::arg("max_rotary_step_deg") = kInfinity,
         "As joint_path, with cuts split until the tool stays within axis_tolerance_deg of the great circle "
-        "between two\n"
-        "poses and no axis turns more than max_rotary_step_deg: also tip (M, 3), axis (M, 3), source (M,), "
-        "keeps (M,)\n"
-        "bool. A finite tip_tolerance_mm: of the tip from its line while the joints run evenly; rapids are "
-        "split too.");
+        "between two "
+        "poses and no axis turns more than max_rotary_step_deg. A finite tip_tolerance_mm: of the tip from "
+        "its line "
+        "while the joints run evenly; rapids are split too.");
 }
 
 }  // namespace mpm::bindings

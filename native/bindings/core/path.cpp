@@ -102,26 +102,23 @@ void bind_path(py::module_& m) {
         py::arg("fraction"),
         "The pose that far (0 to 1) from one pose to another: tip on the straight line, axis on the great "
         "circle.");
-  m.def(
-      "link_passes",
-      &link,
-      py::arg("cells"),
-      py::arg("tool"),
-      py::arg("tip"),
-      py::arg("axis"),
-      py::arg("pass_index"),
-      py::arg("usable"),
-      py::kw_only(),
-      py::arg("options") = LinkOptions{},
-      py::arg("cut_clearance") = py::none(),
-      py::arg("context"),
-      "Joins the usable positions (tip, axis (N, 3), pass_index, usable (N,); set-up frame) to a path: "
-      "cuts along the passes, checked links over every gap. cut_clearance (N,): proven clearance (mm) of the "
-      "cut that ends in each position, NaN where it must not be cut; None: sampling decides. Dict of kind "
-      "(M,) codes of MOVE_KINDS, tip, axis (M, 3), position (M,) index or -1, pass_index (M,), clearance "
-      "(M,) mm, least sampled along the move or the proven bound, proven (M,), and blocked (M,): True where "
-      "no "
-      "free way was found.");
+  m.def("link_passes",
+        &link,
+        py::arg("cells"),
+        py::arg("tool"),
+        py::arg("tip"),
+        py::arg("axis"),
+        py::arg("pass_index"),
+        py::arg("usable"),
+        py::kw_only(),
+        py::arg("options") = LinkOptions{},
+        py::arg("cut_clearance") = py::none(),
+        py::arg("context"),
+        "Joins the usable positions (tip, axis (N, 3), pass_index, usable (N,); set-up frame) to a path: "
+        "cuts along "
+        "the passes, checked links over every gap. cut_clearance (N,): proven clearance (mm) of the cut that "
+        "ends in "
+        "each position, NaN where it must not be cut; None: sampling decides.");
 }
 
 }  // namespace mpm::bindings

@@ -174,9 +174,7 @@ void bind_removal(py::module_& m) {
         py::arg("lo"),
         py::arg("hi"),
         py::arg("context"),
-        "Points of the faces to machine about spacing_mm apart, those well outside of lo..hi left out: dict "
-        "of points, normals (N, 3), "
-        "at (N, 2), their parameters, face (N,), index into the model's, triangles (T, 3).");
+        "Points of the faces to machine about spacing_mm apart, those well outside of lo..hi left out.");
 }
 
 }  // namespace mpm::bindings

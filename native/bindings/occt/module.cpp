@@ -147,14 +147,9 @@ PYBIND11_MODULE(_occt, m) {
         &read_file,
         py::arg("path"),
         py::arg("chord_mm") = kDefaultChord_mm,
-        "All faces of a STEP, IGES or BREP file as dictionaries: name (Face1, ... in FreeCAD's order), kind, "
-        "degree_u,\n"
-        "degree_v, knots_u, knots_v (flat), poles (nu, nv, 3) in mm with the placement applied, weights (nu, "
-        "nv) or None,\n"
-        "trim_loops (list of closed polygons (N, 2) in (u, v), within chord_mm of the trimming curves; "
-        "empty: untrimmed),\n"
-        "reversed (the material lies on the side of Su x Sv), deviation_mm (0: exact). ValueError names file "
-        "and face.");
+        "All faces of a STEP, IGES or BREP file as B-spline surfaces with trim loops within chord_mm of the "
+        "trimming "
+        "curves. ValueError names file and face.");
   m.def("read_brep_string",
         &read_brep_string,
         py::arg("text"),
