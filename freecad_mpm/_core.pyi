@@ -33,6 +33,14 @@ class Context:
     @property
     def total(self) -> int: ...
 
+def pose_between(
+    tip: ArrayLike,  # (3,)
+    axis: ArrayLike,  # (3,), any length
+    tip_to: ArrayLike,  # (3,)
+    axis_to: ArrayLike,  # (3,), any length, not opposite to axis
+    fraction: float,
+) -> tuple[Floats, Floats]: ...  # (3,), (3,): tip on the line, unit axis on the great circle
+
 # ---------------------------------------------------------------------------------------------- surface
 
 class BSplineSurface:
@@ -397,13 +405,6 @@ class LinkOptions:
         axis_deviation_deg: float = 0.0,
     ) -> None: ...
 
-def pose_between(
-    tip: ArrayLike,  # (3,)
-    axis: ArrayLike,  # (3,), any length
-    tip_to: ArrayLike,  # (3,)
-    axis_to: ArrayLike,  # (3,), any length, not opposite to axis
-    fraction: float,
-) -> tuple[Floats, Floats]: ...  # (3,), (3,): tip on the line, unit axis on the great circle
 def link_passes(
     cells: CellTree,
     tool: Tool,

@@ -30,7 +30,7 @@ def compute(op: Any, job: Any) -> tuple[Any, str]:
         return planning.plan(spec, faces=part.faces, **watching)
 
     plan = hooks.run(call)
-    return plan, text.text(plan.report)
+    return plan, text(plan.report)
 
 
 def require_native() -> None:

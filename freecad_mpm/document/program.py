@@ -10,12 +10,12 @@ import FreeCAD
 import numpy as np
 
 from ..core import posts
-from ..core.base import Floats, InputError, Names, write_atomically
+from ..core.base import Floats, InputError, Names, Stages, write_atomically
 from ..core.job import Job
-from ..core.machine import JointPath, feeds, move_machine
+from ..core.machine import feeds, move_machine
 from ..core.path import ToolPath
-from ..core.posts import Program, ProgramTool
-from ..core.program import Shop, describe, find_shop, read_back, told
+from ..core.posts import ProgramTool
+from ..core.program import ProgramPart, Shop, find_shop, make_program
 from . import cl_path, compat, three_axis
 from .job_spec import job_of, post_of
 from .operation import is_operation
@@ -60,14 +60,12 @@ def program_text(ops: Sequence[Any], post: str, arguments: str = "") -> ProgramT
         check_ready(op)
         _check_machine(ours[0], op)
     job = _job(ours[0], post, parse(arguments))
-    place = find_shop(job)
-    parts = [_part(job, place, group) for group in _groups(ops)]
-    text = place.post.write(*(part.program for part in parts))
+    shop = find_shop(job)
+    parts = [_part(job, shop, group) for group in _groups(ops)]
+    made = make_program(job, shop, parts, Stages(), job.post.program_name)
     warnings = [f"{op.Label}: {op.Verdict}" for op in ours if not op.Good]
-    troubles = [trouble for part in parts for trouble in part.joints.troubles()]
-    troubles += [] if troubles else _findings(text, job, place, parts)
-    warnings += [f"{ours[0].Machine}: {trouble}" for trouble in troubles]
-    return ProgramText(text, job.post.program_name + place.post.file_ending, warnings)
+    warnings += [f"{ours[0].Machine}: {trouble}" for trouble in made.troubles]
+    return ProgramText(made.program.text, made.program.file_name, warnings)
 
 
 def check_ready(op: Any) -> None:
@@ -111,33 +109,19 @@ def _same_tool(a: Any, b: Any) -> bool:
     return a.ToolController == b.ToolController and a.CoolantMode == b.CoolantMode
 
 
-@dataclass(frozen=True)
-class _Part:
+def _part(job: Job, shop: Shop, ops: Sequence[Any]) -> ProgramPart:
     """What is written with one tool."""
-
-    path: ToolPath
-    joints: JointPath
-    program: Program
-
-
-def _part(job: Job, place: Shop, ops: Sequence[Any]) -> _Part:
     op = ops[0]
-    path, feeds = _path(ops) if is_operation(op) else _upright_path(op)
-    joints = move_machine(job, place.machine, path, feeds)
-    program = describe(job, place, joints, _box(op))
-    coolant = COOLANT[getattr(op, "CoolantMode", "None")]
+    path, feed_mm_per_min = _path(ops) if is_operation(op) else _upright_path(op)
     controller = op.ToolController
-    tool = ProgramTool(controller.ToolNumber, *compat.radii_of(controller.Tool))
-    options = replace(program.options, coolant=coolant)
-    spindle = float(controller.SpindleSpeed)
-    return _Part(path, joints, replace(program, tool=tool, spindle_rpm=spindle, options=options))
-
-
-def _findings(text: str, job: Job, place: Shop, parts: Sequence[_Part]) -> list[str]:
-    """What reading the text back brings to light."""
-    tip, axis = (np.concatenate([getattr(part.path, name) for part in parts]) for name in ("tip", "axis"))
-    _, checks = read_back(text, job, place.machine, tip, axis, place.post.dialect)
-    return told(checks.findings)
+    return ProgramPart(
+        path,
+        move_machine(job, shop.machine, path, feed_mm_per_min),
+        _box(op),
+        tool=ProgramTool(controller.ToolNumber, *compat.radii_of(controller.Tool)),
+        spindle_rpm=float(controller.SpindleSpeed),
+        coolant=COOLANT[getattr(op, "CoolantMode", "None")],
+    )
 
 
 def path_of(ops: Sequence[Any]) -> ToolPath:
@@ -149,8 +133,8 @@ def _path(ops: Sequence[Any]) -> tuple[ToolPath, Floats]:
     """The stored moves of our operations, in their order, as the core's path, and their feeds."""
     moves = [cl_path.from_commands(op.Path.Commands) for op in ops]
     joined = {name: np.concatenate([getattr(one, name) for one in moves]) for name in ("kind", "tip", "axis")}
-    each = [feeds(post_of(op), np.array(one.kind)) for op, one in zip(ops, moves)]
-    return _as_path(**joined), np.concatenate(each)
+    feed_mm_per_min = np.concatenate([feeds(post_of(op), np.array(one.kind)) for op, one in zip(ops, moves)])
+    return _as_path(**joined), feed_mm_per_min
 
 
 def _upright_path(op: Any) -> tuple[ToolPath, Floats]:

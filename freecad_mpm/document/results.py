@@ -22,7 +22,7 @@ def store(obj: Any, plan: Any, report: str) -> None:
     obj.WorstClearance = worst_clearance(plan.clearance)
     obj.Statuses = [f"{name}: {count}" for name, count in counts.most_common()]
     obj.Report = report
-    obj.Verdict, obj.Good = plan.report["verdict"]["line"], plan.report["verdict"]["good"]
+    obj.Verdict, obj.Good = plan.report.verdict.line, plan.report.verdict.good
     obj.StatusNames = list(counts)
     obj.MoveStatus = _move_status(plan, list(counts))
     visited = plan.path.position[plan.path.position >= 0]

@@ -44,7 +44,13 @@ FORBIDDEN = [
     (rules.native_includes_follow_the_table, "native/src/mpm/base/a.cpp", '#include "mpm/surface/b.h"'),
     (rules.native_includes_follow_the_table, "native/src/mpm/machine/a.cpp", '#  include "mpm/gouge/b.h"'),
     (rules.native_includes_follow_the_table, "native/src/mpm/surface/a.cpp", '#include "mpm/occt/b.h"'),
+    (rules.native_includes_follow_the_table, "native/src/mpm/base/a.inc", '#include "mpm/surface/b.h"'),
     (rules.native_includes_follow_the_table, "native/src/mpm/novel/a.cpp", "int x;"),
+    (
+        rules.native_permissions_are_used,
+        "docs/architecture.md",
+        TABLE.replace("| faces | base", "| faces | base, occt"),
+    ),
     (rules.judge_is_independent, "docs/architecture.md", TABLE.replace("0–2 |\n| 4", "0–4 |\n| 4")),
     (rules.tbb_has_one_door, "native/src/mpm/path/a.cpp", "#include <tbb/parallel_for.h>"),
     (rules.tbb_has_one_door, "native/bindings/core/a.cpp", "#include <oneapi/tbb.h>"),
@@ -149,6 +155,9 @@ def case_name(value: object) -> str | None:
 @pytest.fixture
 def checkout(tmp_path: Path) -> Path:
     """A tiny checkout that keeps all rules."""
+    for module, others in rules.native_layers(TABLE).items():
+        includes = "\n".join(f'#include "mpm/{other}/all.h"' for other in sorted(others))
+        put(tmp_path, f"native/src/mpm/{module}/all.h", includes)
     for name, text in {
         "docs/architecture.md": TABLE,
         "freecad_mpm/core/base/__init__.py": "__all__ = ['x']",

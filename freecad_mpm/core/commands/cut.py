@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
-from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import PurePath
-from typing import Any
 
 from .. import job, planning, posts, removal
 from ..base import Floats, Stages, blame, output
@@ -16,7 +14,7 @@ from ..part import Scene, prepare
 from ..path import cl_file
 from ..pictures import deviation
 from ..pictures import section as section_picture
-from ..removal import Curve, Moves, Section, bands, memory, mesh_file, plane_curve, planes, probed, report
+from ..removal import Curve, CutReport, Moves, Section, bands, memory, mesh_file, plane_curve, planes, probed
 from .common import GOOD, NOT_GOOD, Files, add_threads, positive, write
 from .console import ProgressLine
 
@@ -79,12 +77,12 @@ def run(given: Namespace, progress: ProgressLine) -> int:
             scene, path, given.resolution_mm, box=corners, on_progress=progress, threads=given.threads
         )
     measured = {name: _measured(found, one, given.probe_radius_mm) for name, one in curves.items()}
-    facts = report.facts(found, measured, getattr(path, "block", None))
+    told = CutReport.of(found, measured, getattr(path, "block", None))
     title = f"{PurePath(spec.part.file).name}, {PurePath(given.program or given.job).name}"
     depth = cut_depth_mm(spec.tolerance, PROVEN)
-    files = _files(found, facts, measured, given.mesh, title, depth)
+    files = _files(found, told, measured, given.mesh, title, depth)
     progress.clear()
-    print(report.text(facts), end="")
+    print(told.text(), end="")
     write(given.out, files)
     return GOOD if found.good(depth) else NOT_GOOD
 
@@ -113,15 +111,15 @@ def _measured(found: removal.Cut, one: Curve, probe_radius_mm: float | None) -> 
 
 def _files(
     found: removal.Cut,
-    facts: Mapping[str, Any],
+    told: CutReport,
     sections: Sections,
     mesh: str,
     title: str,
     depth_mm: float,
 ) -> Files:
     files: Files = {
-        "cut.json": report.to_json(dict(facts)),
-        "cut.txt": report.text(dict(facts)),
+        "cut.json": told.to_json(),
+        "cut.txt": told.text(),
         "deviation.png": deviation.render(deviation.map_of(found), bands.bands(depth_mm), title),
     }
     for name, (one, by_probe) in sections.items():

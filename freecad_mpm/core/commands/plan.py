@@ -36,6 +36,6 @@ def run(given: Namespace, progress: ProgressLine) -> int:
     if given.proof:
         files |= plan_files.proof(computed)
     progress.clear()
-    print(text.text(computed.report), end="")
+    print(text(computed.report), end="")
     write(given.out, files)
-    return GOOD if computed.report["verdict"]["good"] else NOT_GOOD
+    return GOOD if computed.report.verdict.good else NOT_GOOD

@@ -11,17 +11,17 @@ from ..pictures import plan as picture
 from ..planning import Plan
 from ..program import find_shop, proof_file
 from ..removal import mesh_file
-from ..report import text
+from ..report import text, to_json
 
 
 def files(plan: Plan, cut: removal.Cut, stages: Stages) -> dict[str, bytes | str]:
     """File name -> content, everything ready to be written together. cut: of the plan's path."""
     return {
-        "cl.csv": stages.run("cl.csv", cl_file.to_csv, plan, plan.path),
+        "cl.csv": stages.run("cl.csv", cl_file.to_csv, plan.positions, plan.path),
         "cl.apt": stages.run("cl.apt", _apt, plan),
         plan.program.file_name: plan.program.text,
-        "report.json": text.to_json(plan.report),
-        "report.txt": text.text(plan.report),
+        "report.json": to_json(plan.report),
+        "report.txt": text(plan.report),
         "machined.stl": stages.run("machined.stl", _machined_stl, cut),
         "path.png": stages.run("path.png", _picture, plan),
     }

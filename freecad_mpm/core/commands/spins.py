@@ -57,7 +57,8 @@ def run(given: Namespace, progress: ProgressLine) -> int:
         wanted = f"{spec.method.contact_spacing_mm:g} mm {spacing.MEASURES[spec.method.spacing_measure]}"
         files["spacing.png"] = pictures.draw_control(before, after, f"{name}: contacts {wanted}")
         progress.clear()
-        print(spacing.sentence(after.report["contact_spacing"]))
+        if after.report.contact_spacing:
+            print(after.report.contact_spacing.sentence)
     progress.clear()
     print(*spins.summary(found), sep="\n")
     write(given.out, files)

@@ -25,7 +25,7 @@ def tilt(axes: Any, plan: Plan) -> None:
     colours = colormaps["viridis"](np.linspace(0.0, 0.9, max(len(passes), 1)))
     for index, colour in zip(passes, colours):
         of_pass = plan.pass_index == index
-        axes.plot(_way(plan.tip[of_pass]), plan.tilt_deg[of_pass], color=colour, linewidth=1.0)
+        axes.plot(_way(plan.tip[of_pass]), plan.positions.tilt_deg[of_pass], color=colour, linewidth=1.0)
     first_to_last = f", pass {passes[0]} (dark) to {passes[-1]} (light)" if len(passes) > 1 else ""
     dress(axes, f"Tilt along the passes{first_to_last}", "way of the tip along the pass / mm", "tilt / °")
 
@@ -88,7 +88,7 @@ def _status_handles(plan: Plan, gouge_mm: float) -> list[Line2D]:
     contacts = np.isfinite(plan.contacts).all(axis=2).sum(axis=0)
     handles.append(_dot(style.FIRST_CONTACT, f"{contacts[0]}  first contact P"))
     handles.append(_dot(style.SECOND_CONTACT, f"{contacts[1]}  second contact Q"))
-    deep = int(np.count_nonzero(style.gouging(plan, gouge_mm)))
+    deep = int(np.count_nonzero(style.gouging(plan.positions, gouge_mm)))
     handles.append(_ring(style.GOUGE, f"{deep}  deeper than {gouge_mm * 1000:g} µm"))
     return handles
 

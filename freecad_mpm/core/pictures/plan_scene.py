@@ -148,7 +148,7 @@ def _add_contacts(axes: Any, plan: Plan) -> None:
 
 
 def _add_gouges(axes: Any, plan: Plan, gouge_mm: float) -> None:
-    tips = plan.tip[style.gouging(plan, gouge_mm) & np.isfinite(plan.tip).all(axis=1)]
+    tips = plan.tip[style.gouging(plan.positions, gouge_mm) & np.isfinite(plan.tip).all(axis=1)]
     axes.scatter(
         *tips.T, s=14, facecolors="none", edgecolors=style.GOUGE, linewidths=0.9, depthshade=False, zorder=7
     )

@@ -25,9 +25,8 @@ from ..positioning import (
     sample,
     spacing,
 )
-from ..program import find_shop, make_program
-from ..report import facts as report
-from ..report import judge
+from ..program import ProgramPart, find_shop, make_program
+from ..report import judge, make_report
 from .result import Plan
 
 
@@ -57,24 +56,16 @@ def plan(
     path = link(job, scene, positions, placed.cuts, stages)
     path, joints = fit_to_machine(job, shop.machine, scene, path, guarantee_of(job), stages)
     path = with_rapids_proven(job, shop.machine, scene, path, joints, stages)
-    made = make_program(job, shop, path, joints, scene.model.bounds(), stages)
+    made = make_program(job, shop, [ProgramPart(path, joints, scene.model.bounds())], stages)
     positions, path = positions_in_part(positions, scene.frame), path_in_part(path, scene.frame)
     verdict = judge(
         positions, path, made.troubles, job.tolerance, guarantee_of(job), job.footprint.allow_gaps
     )
-    facts = report.facts(job, shop.machine, positions, path, made, placed.counters, stages.seconds, verdict)
-    if job.method.contact_spacing_mm:
-        along = scene.frame.direction_to_part(spacing.feed(job.footprint.direction_deg))
-        facts["contact_spacing"] = spacing.facts(job.method, positions, placed.nearest, along)
-    return Plan(
-        **vars(positions),
-        job=job,
-        scene=scene,
-        path=path,
-        joints=made.joints,
-        program=made.program,
-        report=facts,
+    kept = _kept_spacing(job, scene, positions, placed)
+    told = make_report(
+        job, shop.machine, positions, path, made, verdict, placed.counters, stages.seconds, kept
     )
+    return Plan(positions, path, job, scene, joints, made.program, told)
 
 
 @dataclass(frozen=True)
@@ -104,3 +95,11 @@ def place_and_prove(job: Job, scene: Scene, footprint: Footprint, stages: Stages
 
     proven = prove(job, scene, footprint.points, positions, place_more, stages)
     return Placed(proven.positions, proven.cut_clearance, nearest, counters | {"motion_cells": proven.cells})
+
+
+def _kept_spacing(job: Job, scene: Scene, positions: Positions, placed: Placed) -> spacing.KeptSpacing | None:
+    """How well the job's contact spacing was kept; None where it wants none."""
+    if not job.method.contact_spacing_mm:
+        return None
+    along = scene.frame.direction_to_part(spacing.feed(job.footprint.direction_deg))
+    return spacing.kept_spacing(job.method, positions, placed.nearest, along)

@@ -45,35 +45,53 @@ def contact_spacing(contacts: Floats, status: Names, measure: str, along: Floats
     return np.where(status == "curvature_matched", 0.0, spacing)
 
 
-def facts(method: MethodSpec, positions: Positions, nearest: Nearest, along: Floats) -> dict[str, Any]:
+@dataclass(frozen=True)
+class KeptSpacing:
+    """How well a wanted spacing was kept."""
+
+    wanted_mm: float
+    measure: str
+    tolerance_mm: float
+    kept: int
+    of: int
+    kept_of_footprint: int
+    footprint: int
+    unreachable: list[
+        dict[str, float | None]
+    ]  # x_mm, y_mm (set-up frame), nearest_mm (None: no spin gives any)
+
+    @property
+    def sentence(self) -> str:
+        """The report's line."""
+        text = (
+            f"Contacts {self.wanted_mm:g} mm apart {MEASURES[self.measure]}: within {TOLERANCE:.0%} at "
+            f"{self.kept_of_footprint} of {self.footprint} positions of the footprint"
+        )
+        there = [one["nearest_mm"] for one in self.unreachable if one["nearest_mm"] is not None]
+        without = len(self.unreachable) - len(there)
+        if there:
+            text += (
+                f"; at {len(there)} no spin gives it, the nearest is {min(there):.2f} to {max(there):.2f} mm"
+            )
+        return text + (f"; at {without} no spin gives two contacts" if without else "")
+
+
+def kept_spacing(method: MethodSpec, positions: Positions, nearest: Nearest, along: Floats) -> KeptSpacing:
     """Figures for the report; positions and `along` in one frame."""
     wanted = method.contact_spacing_mm
     spacing = contact_spacing(positions.contacts, positions.status, method.spacing_measure, along)
     kept = np.abs(spacing - wanted) <= TOLERANCE * wanted
     missed = ~nearest.reached(wanted)
-    return {
-        "wanted_mm": wanted,
-        "measure": method.spacing_measure,
-        "tolerance_mm": TOLERANCE * wanted,
-        "kept": int(np.count_nonzero(kept)),
-        "of": len(positions),
-        "kept_of_footprint": int(np.count_nonzero(kept & ~positions.inserted)),
-        "footprint": int(np.count_nonzero(~positions.inserted)),
-        "unreachable": [
+    return KeptSpacing(
+        wanted_mm=wanted,
+        measure=method.spacing_measure,
+        tolerance_mm=TOLERANCE * wanted,
+        kept=int(np.count_nonzero(kept)),
+        of=len(positions),
+        kept_of_footprint=int(np.count_nonzero(kept & ~positions.inserted)),
+        footprint=int(np.count_nonzero(~positions.inserted)),
+        unreachable=[
             {"x_mm": float(x), "y_mm": float(y), "nearest_mm": float(value) if np.isfinite(value) else None}
             for (x, y), value in zip(nearest.points[missed], nearest.spacing_mm[missed])
         ],
-    }
-
-
-def sentence(found: dict[str, Any]) -> str:
-    """The report's line about `facts`."""
-    text = (
-        f"Contacts {found['wanted_mm']:g} mm apart {MEASURES[found['measure']]}: within {TOLERANCE:.0%} at "
-        f"{found['kept_of_footprint']} of {found['footprint']} positions of the footprint"
     )
-    there = [one["nearest_mm"] for one in found["unreachable"] if one["nearest_mm"] is not None]
-    without = len(found["unreachable"]) - len(there)
-    if there:
-        text += f"; at {len(there)} no spin gives it, the nearest is {min(there):.2f} to {max(there):.2f} mm"
-    return text + (f"; at {without} no spin gives two contacts" if without else "")

@@ -6,18 +6,18 @@ To add a figure of programs: a field of `ProgramReport`."""
 from __future__ import annotations
 
 from .file import check_file
-from .making import Made, ProgramFile, Shop, describe, find_shop, make_program, read_back, told
+from .making import Made, ProgramFile, ProgramPart, Shop, find_shop, make_program
 from .proof import proof_file
+from .report import ProgramReport
 
 __all__ = [
     "Made",
     "ProgramFile",
     "Shop",
     "check_file",
-    "describe",
+    "ProgramPart",
+    "ProgramReport",
     "find_shop",
     "make_program",
     "proof_file",
-    "read_back",
-    "told",
 ]

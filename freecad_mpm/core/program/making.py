@@ -1,9 +1,12 @@
-"""Machine and post of a job: from the path to the machine's joints and the program."""
+"""Machine and post of a job, and the program: described, written by its post, read back by the control."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
 
 from .. import machine as machines
 from .. import posts
@@ -49,71 +52,84 @@ def find_shop(job: Job) -> Shop:
 
 
 @dataclass(frozen=True)
-class Made:
-    """What the shop made of a path. `path` and `joints` are in the set-up frame."""
+class ProgramPart:
+    """What a program does with one tool, all in the set-up frame; what is None is the job's."""
 
     path: ToolPath
     joints: JointPath
-    program: ProgramFile
-    report: ProgramReport
+    box: tuple[Floats, Floats]  # low and high corner of the part or stock
+    tool: ProgramTool | None = None
+    spindle_rpm: float | None = None
+    coolant: str | None = None
 
-    @property
-    def troubles(self) -> list[str]:
-        """One line for each kind of thing that the machine cannot do, or that is wrong with the program."""
-        return self.joints.troubles(self.path.position) or told(self.report.findings)
-
-
-def told(findings: Sequence[object]) -> list[str]:
-    """One line for all findings of a program's checks, or none."""
-    if not findings:
-        return []
-    return [f"{len(findings)} findings of the program's checks, the first: {findings[0]}"]
-
-
-def make_program(
-    job: Job, shop: Shop, path: ToolPath, joints: JointPath, box: tuple[Floats, Floats], stages: Stages
-) -> Made:
-    """The program, and its text read back and checked; path, joints and the part's `box` in the set-up frame."""
-    program = describe(job, shop, joints, box)
-    with blame(f"{job.source}: [{job.post.table}]"):
-        text = stages.run("program", shop.post.write, program)
-    checked = stages.run("check", check_text, text, job, program, path, shop.post.dialect)
-    return Made(path, joints, ProgramFile(FILE_STEM + shop.post.file_ending, text), checked)
-
-
-def describe(job: Job, shop: Shop, joints: JointPath, box: tuple[Floats, Floats]) -> Program:
-    """What the post writes from; `box`: low and high corner of the part in the set-up frame."""
-    return Program(
-        name=job.post.program_name,
-        machine=shop.machine,
-        tool=ProgramTool(job.post.tool_number, job.tool.radius_mm, job.tool.minor_radius_mm),
-        spindle_rpm=job.post.spindle_rpm,
-        moves=joints,
-        blank=box,
-        axes_mm=None if job.post.tcp else axes_of(shop.machine, joints),
-        options=shop.options,
-    )
-
-
-def check_text(text: str, job: Job, program: Program, path: ToolPath, dialect: str) -> ProgramReport:
-    """Read the program's text back as a control would, and compare its poses with the path's."""
-    blocks, checks = read_back(text, job, program.machine, path.tip, path.axis, dialect)
-    return report.report(program, blocks, checks)
-
-
-def read_back(
-    text: str, job: Job, machine: Machine, tip: Floats, axis: Floats, dialect: str
-) -> tuple[int, CheckResult]:
-    """How many blocks a text has, and what all checks say of it; tip, axis (N, 3): the poses that it must meet."""
-    parsed = dialects.read(text, dialect)
-    between = WORD_SLACK * control_tip_deviation_mm(job), WORD_SLACK * control_deviation_deg(job)
-    control = Control(job.post.tcp, between_mm=between[0], between_deg=between[1])
-    return len(parsed.blocks), check_program(parsed, machine, tip, axis, control)
+    def described(self, job: Job, shop: Shop) -> Program:
+        """What the post writes from."""
+        own = ProgramTool(job.post.tool_number, job.tool.radius_mm, job.tool.minor_radius_mm)
+        coolant = self.coolant or shop.options.coolant
+        return Program(
+            name=job.post.program_name,
+            machine=shop.machine,
+            tool=self.tool or own,
+            spindle_rpm=self.spindle_rpm or job.post.spindle_rpm,
+            moves=self.joints,
+            blank=self.box,
+            axes_mm=None if job.post.tcp else axes_of(shop.machine, self.joints),
+            options=replace(shop.options, coolant=coolant),
+        )
 
 
 @dataclass(frozen=True)
 class ProgramFile:
-    """The post's text and the file name it belongs under."""
+    """The post's text, with the line ends that the control expects, and the file name it belongs under."""
 
     file_name: str
     text: str
+
+
+@dataclass(frozen=True)
+class Made:
+    """A program, and what reading its text back brought to light."""
+
+    parts: Sequence[ProgramPart]
+    programs: Sequence[Program]
+    program: ProgramFile
+    blocks: int
+    checks: CheckResult
+
+    @property
+    def troubles(self) -> list[str]:
+        """One line for each kind of thing that the machine cannot do, or else one for what is wrong with the text."""
+        found = [trouble for one in self.parts for trouble in one.joints.troubles(one.path.position)]
+        findings = self.checks.findings
+        if findings and not found:
+            found = [f"{len(findings)} findings of the program's checks, the first: {findings[0]}"]
+        return found
+
+    @cached_property
+    def report(self) -> ProgramReport:
+        """Figures of a program of one part."""
+        (program,) = self.programs
+        return report.report(program, self.blocks, self.checks)
+
+
+def make_program(
+    job: Job, shop: Shop, parts: Sequence[ProgramPart], stages: Stages, stem: str = FILE_STEM
+) -> Made:
+    """The program of a job, part by part with its tools; its text is read back as a control would and compared with
+    the poses of the parts' paths. stem: of the file name.
+
+    Raises InputError for what the post cannot write."""
+    programs = [part.described(job, shop) for part in parts]
+    with blame(f"{job.source}: [{job.post.table}]"):
+        text = stages.run("program", shop.post.write, *programs)
+    blocks, checks = stages.run("check", _read_back, text, job, shop, parts)
+    return Made(parts, programs, ProgramFile(stem + shop.post.file_ending, text), blocks, checks)
+
+
+def _read_back(text: str, job: Job, shop: Shop, parts: Sequence[ProgramPart]) -> tuple[int, CheckResult]:
+    """How many blocks a text has, and what all checks say of it."""
+    tip, axis = (np.concatenate([getattr(part.path, name) for part in parts]) for name in ("tip", "axis"))
+    parsed = dialects.read(text, shop.post.dialect)
+    between = WORD_SLACK * control_tip_deviation_mm(job), WORD_SLACK * control_deviation_deg(job)
+    control = Control(job.post.tcp, between_mm=between[0], between_deg=between[1])
+    return len(parsed.blocks), check_program(parsed, shop.machine, tip, axis, control)

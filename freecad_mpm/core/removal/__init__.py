@@ -9,11 +9,12 @@ To add a check of the cut: a function over `Cut`, as `probed`."""
 
 from __future__ import annotations
 
-from . import bands, memory, mesh_file, plane_curve, planes, report
+from . import bands, memory, mesh_file, plane_curve, planes
 from .bands import Bands
 from .cutting import NOT_CUT, SECTION_SPACING_MM, Cut, Extreme, cut, cut_rays, default_resolution_mm
 from .plane_curve import Curve
 from .probing import probed
+from .report import CutReport
 from .section import Section
 from .sweep import Box, Moves, tool_sweep
 
@@ -22,6 +23,7 @@ __all__ = [
     "Box",
     "Curve",
     "Cut",
+    "CutReport",
     "Extreme",
     "Moves",
     "NOT_CUT",
@@ -36,6 +38,5 @@ __all__ = [
     "plane_curve",
     "planes",
     "probed",
-    "report",
     "tool_sweep",
 ]

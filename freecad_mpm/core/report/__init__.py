@@ -5,8 +5,8 @@ To add a reason why a plan is not good: one row in `verdict.judge`, with a test 
 
 from __future__ import annotations
 
-from . import facts, text
-from .facts import with_cut
-from .verdict import judge
+from .report import Report, make_report, with_cut
+from .text import text, to_json
+from .verdict import Verdict, judge
 
-__all__ = ["facts", "judge", "text", "with_cut"]
+__all__ = ["Report", "Verdict", "judge", "make_report", "text", "to_json", "with_cut"]

@@ -8,10 +8,9 @@ import numpy as np
 
 from ..base import Integers
 from ..job import PROVEN, Job
-from ..machine import Machine, rewinds, slowed_cuts
+from ..machine import JointPath, Machine, rewinds, slowed_cuts
 from ..path import ToolPath
 from ..positioning import Positions
-from ..program import Made
 from .verdict import gaps, unproven_links
 
 # So many positions are named in a warning.
@@ -71,9 +70,9 @@ def _place(path: ToolPath, move: int) -> str:
     return f"to position {path.position[move + after[0]]}" if len(after) else "at the end"
 
 
-def slowed(machine: Machine, path: ToolPath, made: Made) -> list[str]:
+def slowed(machine: Machine, path: ToolPath, joints: JointPath) -> list[str]:
     """Cuts in which the rotary axes cannot follow the feed."""
-    moves = np.unique(made.joints.source[slowed_cuts(machine, made.joints)])
+    moves = np.unique(joints.source[slowed_cuts(machine, joints)])
     places = path.position[moves][path.position[moves] >= 0]
     if not len(places):
         return []

@@ -2,7 +2,6 @@
 
 #include "columns.h"
 #include "mpm/path/link_passes.h"
-#include "mpm/path/pose_motion.h"
 
 namespace mpm::bindings {
 namespace {
@@ -60,14 +59,6 @@ LinkOptions make_options(double safe_clearance_mm,
           radians(axis_deviation_deg)};
 }
 
-py::tuple between(
-    const Vec3& tip, const Vec3& axis, const Vec3& tip_to, const Vec3& axis_to, double fraction) {
-  const TipPose from{tip, to_direction(axis, "axis")}, to{tip_to, to_direction(axis_to, "axis_to")};
-  require(angle_between(from.axis, to.axis) < kPi, "axis and axis_to must not be opposite");
-  const TipPose pose = pose_between(from, to, fraction);
-  return py::make_tuple(pose.tip, pose.axis);
-}
-
 }  // namespace
 
 void bind_path(py::module_& m) {
@@ -93,15 +84,6 @@ void bind_path(py::module_& m) {
            "cut_length_max, cut_turn_max: what one cut may join; rapid_turn_max: axis motion of one rapid; "
            "depth: what a proven plunge or retract may cut in, the real tip and axis being off by their "
            "deviations.");
-  m.def("pose_between",
-        &between,
-        py::arg("tip"),
-        py::arg("axis"),
-        py::arg("tip_to"),
-        py::arg("axis_to"),
-        py::arg("fraction"),
-        "The pose that far (0 to 1) from one pose to another: tip on the straight line, axis on the great "
-        "circle.");
   m.def("link_passes",
         &link,
         py::arg("cells"),

@@ -5,6 +5,7 @@
 #include <random>
 #include <vector>
 
+#include "mpm/base/instruction_set.h"
 #include "mpm/contact/clearance_bound.h"
 #include "mpm/contact/ring_kernel.h"
 
@@ -153,21 +154,10 @@ bool same_bits(const RingAnswer& a, const RingAnswer& b) {
          a.open == b.open && a.clear_of_pieces == b.clear_of_pieces;
 }
 
-std::vector<const RingKernel*> wider_kernels() {
-  std::vector<const RingKernel*> kernels;
-#ifdef MPM_AVX2
-  if (__builtin_cpu_supports("avx2")) kernels.push_back(&kAvx2RingKernel);
-#endif
-#ifdef MPM_AVX512
-  if (__builtin_cpu_supports("avx512dq")) kernels.push_back(&kAvx512RingKernel);
-#endif
-  return kernels;
-}
-
 // Also whatever else is bounded at the same time.
 TEST(RingKernel, EveryInstructionSetGivesTheSameBits) {
-  const std::vector<const RingKernel*> kernels = wider_kernels();
-  if (kernels.empty()) GTEST_SKIP() << "this processor, or this build, has only one kernel";
+  const auto wider_kernels = runnable(kRingKernels).subspan(1);
+  if (wider_kernels.empty()) GTEST_SKIP() << "this processor, or this build, has only one kernel";
   Random random;
   for (int k = 0; k < 2000; ++k) {
     const Case one = random_case(random);
@@ -180,11 +170,11 @@ TEST(RingKernel, EveryInstructionSetGivesTheSameBits) {
                           one.tool.radius()};
     const CellBatch cells = in_all_lanes(one.cell), others = in_all_lanes(random_case(random).cell);
     RingAnswer narrow, narrow_other;
-    kBaselineRingKernel.bound(frame, cells, cells, {0, 0, 0}, narrow, narrow_other);
-    kBaselineRingKernel.bound(frame, others, others, {0, 0, 0}, narrow_other, narrow_other);
+    baseline::kRingKernel.bound(frame, cells, cells, {0, 0, 0}, narrow, narrow_other);
+    baseline::kRingKernel.bound(frame, others, others, {0, 0, 0}, narrow_other, narrow_other);
     CellBatch narrow_quarters;
-    kBaselineRingKernel.quarter(cells, 1, narrow_quarters);
-    for (const RingKernel* kernel : kernels) {
+    baseline::kRingKernel.quarter(cells, 1, narrow_quarters);
+    for (const RingKernel* kernel : wider_kernels) {
       RingAnswer wide, wide_other;
       kernel->bound(frame, cells, others, {0, 0, 0}, wide, wide_other);
       EXPECT_TRUE(same_bits(narrow, wide)) << k;
@@ -201,7 +191,7 @@ TEST(RingKernel, QuartersAreTheWholeCell) {
   const QuadraticCell whole = random_case(random).cell;
   const CellBatch cells = in_all_lanes(whole);
   CellBatch quarters;
-  ring_kernel().quarter(cells, 2, quarters);
+  widest(kRingKernels).quarter(cells, 2, quarters);
   for (int lane = 0; lane < kLanes; ++lane) {
     const QuadraticCell quarter = get_lane(quarters, lane);
     for (double a : {-1.0, -0.3, 1.0})

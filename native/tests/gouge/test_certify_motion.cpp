@@ -2,11 +2,11 @@
 
 #include <random>
 
+#include "mpm/base/pose_motion.h"
 #include "mpm/contact/motion_bound.h"
 #include "mpm/gouge/certify_motion.h"
 #include "mpm/gouge/clearance_sampler.h"
 #include "mpm/gouge/judge_cells.h"
-#include "mpm/path/pose_motion.h"
 #include "surface/random_surface.h"
 #include "thesis.h"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "machine/chains.h"
-#include "mpm/machine/direction.h"
+#include "mpm/base/direction.h"
 #include "mpm/machine/joint_motion.h"
 
 namespace mpm {

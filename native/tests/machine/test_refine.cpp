@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "machine/chains.h"
-#include "mpm/machine/direction.h"
+#include "mpm/base/direction.h"
 #include "mpm/machine/orientation.h"
 #include "mpm/machine/refine.h"
 

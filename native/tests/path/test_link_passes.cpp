@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "mpm/base/direction.h"
 #include "mpm/gouge/judge_cells.h"
 #include "mpm/path/escape.h"
 #include "mpm/path/link_passes.h"

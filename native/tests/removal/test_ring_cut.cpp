@@ -4,6 +4,8 @@
 #include <random>
 #include <vector>
 
+#include "mpm/base/instruction_set.h"
+#include "mpm/removal/ring_cut.h"
 #include "mpm/removal/tool_sweep.h"
 
 namespace mpm {
@@ -89,7 +91,7 @@ TEST(RingCut, AgreesWithDenseSampling) {
       put(rays[i], random.between(0, 1) < 0.7 ? random.between(-0.1, 0.5) : random.between(0, 20), i, batch);
     }
     const RayBatch before = batch;
-    const RingCut found = ring_cutter().cut(one.sweep.ring_stroke(0), batch, kBelow);
+    const RingCut found = widest(kRingCutters).cut(one.sweep.ring_stroke(0), batch, kBelow);
     for (int i = 0; i < kLanes; ++i) {
       const double old = before.height[i], now = batch.height[i];
       if (found.undecided >> i & 1) {
@@ -143,7 +145,7 @@ TEST(RingCut, ClearBundlesAreClear) {
         bundles.spread[i] = std::max(bundles.spread[i], (direction - middle.direction).norm());
       }
     }
-    const int found = ring_cutter().clear(one.sweep.ring_stroke(0), bundles);
+    const int found = widest(kRingCutters).clear(one.sweep.ring_stroke(0), bundles);
     for (int i = 0; i < kLanes; ++i) {
       if (!(found >> i & 1)) continue;
       ++clear;
@@ -159,21 +161,9 @@ TEST(RingCut, ClearBundlesAreClear) {
   EXPECT_GT(near, 60);  // the test would notice a bound that is off
 }
 
-std::vector<const RingCutter*> wider_cutters() {
-  std::vector<const RingCutter*> cutters;
-#ifdef MPM_AVX2
-  if (__builtin_cpu_supports("avx2")) cutters.push_back(&kAvx2RingCutter);
-#endif
-#ifdef MPM_AVX512
-  if (__builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
-    cutters.push_back(&kAvx512RingCutter);
-#endif
-  return cutters;
-}
-
 TEST(RingCut, SameBitsForAllInstructionSets) {
-  const std::vector<const RingCutter*> cutters = wider_cutters();
-  if (cutters.empty()) GTEST_SKIP() << "this processor, or this build, has only one kernel";
+  const auto wider_cutters = runnable(kRingCutters).subspan(1);
+  if (wider_cutters.empty()) GTEST_SKIP() << "this processor, or this build, has only one kernel";
   Random random;
   int decided = 0;
   for (int n = 0; n < 2000; ++n) {
@@ -181,9 +171,9 @@ TEST(RingCut, SameBitsForAllInstructionSets) {
     RayBatch rays;
     for (int i = 0; i < kLanes; ++i) put(random_ray(one, random), random.between(-0.1, 8), i, rays);
     RayBatch narrow = rays;
-    const RingCut expected = kBaselineRingCutter.cut(one.sweep.ring_stroke(0), narrow, kBelow);
+    const RingCut expected = baseline::kRingCutter.cut(one.sweep.ring_stroke(0), narrow, kBelow);
     decided += expected.undecided != (1 << kLanes) - 1;
-    for (const RingCutter* cutter : cutters) {
+    for (const RingCutter* cutter : wider_cutters) {
       RayBatch wide = rays;
       const RingCut found = cutter->cut(one.sweep.ring_stroke(0), wide, kBelow);
       EXPECT_EQ(found.lowered, expected.lowered);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mpm/base/instruction_set.h"
+
 namespace mpm {
 namespace {
 
@@ -39,7 +41,7 @@ double least_quadratic(double f, double g1, double g2, double h11, double h12, d
 ClearanceBound::ClearanceBound(const Tool& tool, const ToolPose& pose)
     : tool_(tool),
       pose_(pose),
-      kernel_(ring_kernel()),
+      kernel_(widest(kRingKernels)),
       frame_{{pose.torus_center.x(), pose.torus_center.y(), pose.torus_center.z()},
              {pose.axis.x(), pose.axis.y(), pose.axis.z()},
              tool.major_radius,

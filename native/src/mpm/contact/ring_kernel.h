@@ -50,15 +50,17 @@ struct RingKernel {
   void (*quarter)(const CellBatch& whole, int lane, CellBatch& quarters);
 };
 
-// The widest that this processor has.
-const RingKernel& ring_kernel();
-
-extern const RingKernel kBaselineRingKernel;
-#ifdef MPM_AVX2
-extern const RingKernel kAvx2RingKernel;
-#endif
-#ifdef MPM_AVX512
-extern const RingKernel kAvx512RingKernel;
-#endif
+namespace baseline {
+extern const RingKernel kRingKernel;
+}
+namespace avx2 {
+extern const RingKernel kRingKernel;
+}
+namespace avx512 {
+extern const RingKernel kRingKernel;
+}
+// For widest() of base/instruction_set.h.
+inline constexpr const RingKernel* kRingKernels[] = {
+    &baseline::kRingKernel, &avx2::kRingKernel, &avx512::kRingKernel};
 
 }  // namespace mpm

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mpm/base/direction.h"
 #include "mpm/base/frame.h"
-#include "mpm/machine/direction.h"
 
 namespace mpm {
 namespace {

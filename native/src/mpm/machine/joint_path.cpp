@@ -5,8 +5,8 @@
 #include <compare>
 #include <string>
 
+#include "mpm/base/direction.h"
 #include "mpm/base/error.h"
-#include "mpm/machine/direction.h"
 #include "mpm/machine/rotary_candidates.h"
 
 namespace mpm {
@@ -15,8 +15,6 @@ namespace {
 // Changing the solution means going to clearance and swinging the head: worth this many seconds of rotary
 // motion.
 constexpr double kFlipSeconds = 1.0;
-// A turn in a cut longer than half a turn by more than this (radians) is a rewind; less is rounding.
-constexpr double kHalfTurnSlack = 1e-9;
 // How far a unit vector may be from unit length.
 constexpr double kUnitSlack = 1e-6;
 

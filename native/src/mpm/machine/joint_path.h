@@ -9,6 +9,9 @@
 
 namespace mpm {
 
+// A turn in a cut longer than half a turn by more than this (radians) is a rewind; less is rounding.
+inline constexpr double kHalfTurnSlack = 1e-9;
+
 // A path as poses in the part's frame; the move that ends in pose i starts in pose i - 1.
 struct PosePath {
   std::vector<Vec3> tip;              // mm

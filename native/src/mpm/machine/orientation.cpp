@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mpm/machine/direction.h"
+#include "mpm/base/direction.h"
 
 namespace mpm {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "mpm/base/direction.h"
 #include "mpm/base/error.h"
-#include "mpm/machine/direction.h"
 #include "mpm/machine/joint_motion.h"
 
 namespace mpm {
@@ -15,8 +15,6 @@ namespace {
 constexpr int kMaxRounds = 20;
 // A bad piece is split in so many at most at a time: what it needs is only estimated.
 constexpr double kMaxSplit = 8;
-// A turn of more than half a turn by more than this (radians) is a rewind; less is rounding.
-constexpr double kHalfTurnSlack = 1e-9;
 
 // For each move the fractions, rising to 1, at which its pieces end.
 using Fractions = std::vector<std::vector<double>>;

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "mpm/base/context.h"
+#include "mpm/base/pose_motion.h"
 #include "mpm/gouge/clearance_sampler.h"
-#include "mpm/path/pose_motion.h"
 #include "mpm/surface/cell_tree.h"
 
 namespace mpm {

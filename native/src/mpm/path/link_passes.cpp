@@ -4,11 +4,12 @@
 #include <cmath>
 #include <string>
 
+#include "mpm/base/direction.h"
 #include "mpm/base/error.h"
 #include "mpm/base/parallel.h"
+#include "mpm/base/pose_motion.h"
 #include "mpm/gouge/clearance_sampler.h"
 #include "mpm/path/escape.h"
-#include "mpm/path/pose_motion.h"
 
 namespace mpm {
 namespace {

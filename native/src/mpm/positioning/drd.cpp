@@ -13,7 +13,6 @@ namespace {
 
 constexpr int kRaySteps = 30;        // Newton steps a ray may take; 2 to 6 are usual
 constexpr int kMostBisections = 60;  // 45 degrees halved so often is below a double's resolution
-constexpr double kOnAxis = 1e-6;     // mm: a contact nearer to the tool axis has no insert
 
 constexpr double kNewtonTolerance = 1e-6;  // mm in plan: far below the drop difference of 0.01
 constexpr double kSameContact = 1e-3;      // mm: about the last grid of rays

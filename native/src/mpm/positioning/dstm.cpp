@@ -3,12 +3,12 @@
 #include <cmath>
 
 #include "mpm/base/error.h"
+#include "mpm/contact/insert.h"
 #include "mpm/positioning/newton_drop.h"
 
 namespace mpm {
 namespace {
 
-constexpr double kOnAxis = 1e-6;         // mm: a contact nearer to the tool axis has no insert
 constexpr double kFirstTilt = kPi / 36;  // 5 degrees: the first start of the tilt
 constexpr double kOpposite = 0.5 * kPi;  // phi of the far side of the major circle
 

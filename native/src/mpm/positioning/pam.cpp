@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "mpm/base/error.h"
+#include "mpm/contact/insert.h"
 #include "mpm/positioning/newton_drop.h"
 
 namespace mpm {
 namespace {
 
-constexpr double kOnAxis = 1e-6;           // mm: a contact nearer to the tool axis has no insert
 constexpr int kSeeds = 50;                 // starts of the drop
 constexpr double kNewtonTolerance = 1e-9;  // mm: exact derivatives reach it in a step or two more
 

@@ -9,14 +9,14 @@
 namespace mpm {
 namespace {
 
-constexpr double kUnitTolerance = 1e-9;
+constexpr double kUnitRayTolerance = 1e-9;
 
 void check_rays(const NormalRays& rays) {
   require(rays.height.size() == rays.rays.size() && rays.move.size() == rays.rays.size(),
           "origins, directions, height and move must have the same length");
   require(std::isfinite(rays.below) && rays.below >= 0, "below_mm must be a finite number, 0 or more");
   for (const Ray& ray : rays.rays)
-    require(ray.origin.allFinite() && std::abs(ray.direction.norm() - 1) < kUnitTolerance,
+    require(ray.origin.allFinite() && std::abs(ray.direction.norm() - 1) < kUnitRayTolerance,
             "origins must be finite, directions unit vectors");
 }
 

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mpm/base/direction.h"
 #include "mpm/base/parallel.h"
 #include "mpm/surface/box_tree.h"
 
 namespace mpm {
 namespace {
 
-constexpr std::size_t kGrain = 64;
+constexpr std::size_t kPointsATask = 64;
 constexpr double kEnlarged = 1e-9;  // mm: what rounding may take off a box
 
 constexpr double kGolden = 0.6180339887498949;
@@ -111,7 +112,7 @@ Overcut find_overcut(const std::vector<Vec3>& points,
   const BoxTree tree(boxes);
   Overcut result{std::vector<double>(points.size(), 0.0), std::vector<std::int32_t>(points.size(), -1)};
   context.start(points.size());
-  for_each_range(points.size(), kGrain, context, [&](std::size_t begin, std::size_t end) {
+  for_each_range(points.size(), kPointsATask, context, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end && !context.cancelled(); ++i) {
       Search search(tool, points[i]);
       tree.visit(Box3{points[i], points[i]}, [&](std::uint32_t k) { search.look_at(moves[k]); });

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "mpm/base/instruction_set.h"
 #include "mpm/removal/normal_rays.h"
 #include "mpm/removal/ray_order.h"
 
@@ -35,7 +36,7 @@ class RayTile {
 
   NormalRays& rays_;
   const ToolSweep& sweep_;
-  const RingCutter& cutter_ = ring_cutter();
+  const RingCutter& cutter_ = widest(kRingCutters);
   const std::uint32_t* numbers_;
   std::size_t count_, bundles_;
   std::array<RayBatch, kTileRays / kLanes> batches_;

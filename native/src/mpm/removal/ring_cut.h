@@ -1,7 +1,7 @@
 // The vector kernels that cut rays with the tool's ring: four rays at once during one stroke.
 #pragma once
 
-#include "mpm/base/lanes.h"
+#include "mpm/base/lane_count.h"
 
 namespace mpm {
 
@@ -46,15 +46,17 @@ struct RingCutter {
   RingCut (*cut)(const RingStroke& ring, RayBatch& rays, double below);
 };
 
-extern const RingCutter kBaselineRingCutter;
-#ifdef MPM_AVX2
-extern const RingCutter kAvx2RingCutter;
-#endif
-#ifdef MPM_AVX512
-extern const RingCutter kAvx512RingCutter;
-#endif
-
-// The widest that this processor has.
-const RingCutter& ring_cutter();
+namespace baseline {
+extern const RingCutter kRingCutter;
+}
+namespace avx2 {
+extern const RingCutter kRingCutter;
+}
+namespace avx512 {
+extern const RingCutter kRingCutter;
+}
+// For widest() of base/instruction_set.h.
+inline constexpr const RingCutter* kRingCutters[] = {
+    &baseline::kRingCutter, &avx2::kRingCutter, &avx512::kRingCutter};
 
 }  // namespace mpm

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "mpm/base/direction.h"
 #include "mpm/base/error.h"
 
 namespace mpm {

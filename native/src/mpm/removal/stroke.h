@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "mpm/path/pose_motion.h"
+#include "mpm/base/pose_motion.h"
 #include "mpm/tool/tool.h"
 
 namespace mpm {

@@ -13,9 +13,9 @@ namespace {
 constexpr int kProbes = 17;           // iso-lines and points on them by which a face is measured
 constexpr double kDegenerate = 1e-9;  // mm^2: |Su x Sv| of a point without a normal
 constexpr double kNudge = 1e-3;       // of the domain, towards its middle, to where there is one
-constexpr std::size_t kGrain = 1024;
-constexpr std::size_t kBlocks =
-    64;  // along each side of a face, of which each is looked at whether it is in the region
+constexpr std::size_t kSamplesATask = 1024;
+// Along each side of a face, of which each is looked at whether it is in the region.
+constexpr std::size_t kBlocks = 64;
 constexpr std::uint32_t kNone = ~std::uint32_t(0);
 
 // Nodes u0 <= i <= u1, v0 <= j <= v1 of a regular grid over a face's parameters with nu x nv steps.
@@ -178,7 +178,7 @@ SurfaceSamples sample_surfaces(const SurfaceModel& model,
   result.points.resize(at.size());
   result.normals.resize(at.size());
   context.start(at.size());
-  for_each_range(at.size(), kGrain, context, [&](std::size_t begin, std::size_t end) {
+  for_each_range(at.size(), kSamplesATask, context, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Face& face = model.faces()[result.face[i]];
       result.points[i] = face.surface.point(at[i].x(), at[i].y());

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mpm/base/error.h"
+#include "mpm/base/instruction_set.h"
 #include "mpm/surface/bernstein.h"
 #include "mpm/surface/net_kernel.h"
 
@@ -51,7 +52,7 @@ SurfacePoint BezierPatch::evaluate(double u, double v) const {
   BernsteinRow bu, du, ddu, bv, dv, ddv;
   bernstein_derivatives(degree_u_, local(u, box_.u0, box_.u1), bu, du, ddu);
   bernstein_derivatives(degree_v_, local(v, box_.v0, box_.v1), bv, dv, ddv);
-  static const NetKernel kernel = net_kernel();
+  static const NetKernel kernel = widest(kNetKernels);
   double sums[6][4];
   kernel(control_.data()->data(),
          degree_u_,

@@ -1,7 +1,7 @@
 // Four quadratic cells side by side, in the layout that vector instructions want.
 #pragma once
 
-#include "mpm/base/lanes.h"
+#include "mpm/base/lane_count.h"
 
 namespace mpm {
 

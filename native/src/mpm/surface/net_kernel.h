@@ -9,7 +9,8 @@ struct BasisRows {
 };
 
 // Sums of a net of homogeneous control points (four numbers each, row-major in u, (degree_u + 1)
-// (degree_v + 1) of them) times products of basis rows: out[0..5] = H, Hu, Hv, Huu, Huv, Hvv.
+// (degree_v + 1) of them) times products of basis rows: out[0..5] = H, Hu, Hv, Huu, Huv, Hvv. All instruction
+// sets give the same bits.
 using NetKernel = void (*)(const double* control,
                            int degree_u,
                            int degree_v,
@@ -17,12 +18,13 @@ using NetKernel = void (*)(const double* control,
                            const BasisRows& v,
                            double out[6][4]);
 
-// The widest that this processor has; all give the same bits.
-NetKernel net_kernel();
-
-void net_baseline(const double*, int, int, const BasisRows&, const BasisRows&, double[6][4]);
-#ifdef MPM_AVX2
-void net_avx2(const double*, int, int, const BasisRows&, const BasisRows&, double[6][4]);
-#endif
+namespace baseline {
+extern const NetKernel kNetKernel;
+}
+namespace avx2 {
+extern const NetKernel kNetKernel;
+}
+// For widest() of base/instruction_set.h.
+inline constexpr const NetKernel* kNetKernels[] = {&baseline::kNetKernel, &avx2::kNetKernel};
 
 }  // namespace mpm
