@@ -149,6 +149,13 @@ def certify_poses(
     tolerance_mm: float,
     context: Context,
 ) -> Certificates: ...
+def sampled_clearance(
+    model: SurfaceModel,
+    tool: Tool,
+    tips: ArrayLike,  # (N, 3)
+    axes: ArrayLike,  # (N, 3)
+    context: Context,
+) -> Floats: ...  # (N,) mm, at most the tool's radius
 def certify_motions(
     cells: CellTree,
     tool: Tool,
@@ -235,13 +242,6 @@ class Positioner:
         context: Context,
     ) -> Placements: ...
 
-def sampled_clearance(
-    model: SurfaceModel,
-    tool: Tool,
-    tips: ArrayLike,  # (N, 3)
-    axes: ArrayLike,  # (N, 3)
-    context: Context,
-) -> Floats: ...  # (N,) mm, at most the tool's radius
 def restrict_to_faces(
     model: SurfaceModel,
     tool: Tool,

@@ -2,6 +2,7 @@
 #include "mpm/gouge/certify_motion.h"
 #include "mpm/gouge/certify_poses.h"
 #include "mpm/gouge/judge_cells.h"
+#include "mpm/gouge/sample_poses.h"
 
 namespace mpm::bindings {
 namespace {
@@ -37,6 +38,15 @@ py::dict poses(const SurfaceModel& model,
   for (const ToolPose& pose : all)
     require(pose.torus_center.allFinite() && pose.axis.allFinite(), "tips, axes: must be finite");
   return to_dict(without_gil([&] { return certify_poses(model, tool, all, tolerance_mm, context); }));
+}
+
+py::array_t<double> sampled_clearance(const SurfaceModel& model,
+                                      const Tool& tool,
+                                      const DoubleArray& tips,
+                                      const DoubleArray& axes,
+                                      Context& context) {
+  const std::vector<ToolPose> all = to_poses(tool, tips, axes, "tips", "axes");
+  return to_array(without_gil([&] { return sample_poses(model, tool, all, context); }));
 }
 
 // One number for all motions, or one for each.
@@ -95,6 +105,15 @@ void bind_gouge(py::module_& m) {
         py::arg("tolerance_mm"),
         py::arg("context"),
         "Certificates of the poses tips, axes (N, 3); free: nothing cuts in deeper than tolerance_mm.");
+  m.def("sampled_clearance",
+        &sampled_clearance,
+        py::arg("model"),
+        py::arg("tool"),
+        py::arg("tips"),
+        py::arg("axes"),
+        py::arg("context"),
+        "Least sampled signed distance (mm) of the surfaces from the tool at each tip, axis (N, 3); at most "
+        "the tool's radius.");
   m.def("certify_motions",
         &motions,
         py::arg("cells"),

@@ -4,9 +4,9 @@
 #include "columns.h"
 #include "mpm/base/context.h"
 #include "mpm/footprint/plan_locator.h"
-#include "mpm/gouge/clearance_sampler.h"
 #include "mpm/positioning/contact_spacing.h"
-#include "mpm/positioning/method.h"
+#include "mpm/positioning/place_all.h"
+#include "mpm/positioning/registry.h"
 
 namespace mpm::bindings {
 namespace {
@@ -119,21 +119,6 @@ class Positioner {
   std::unique_ptr<Method> method_;
 };
 
-py::array_t<double> sampled_clearance(const SurfaceModel& model,
-                                      const Tool& tool,
-                                      const DoubleArray& tips,
-                                      const DoubleArray& axes,
-                                      Context& context) {
-  const std::vector<Vec3> tip = to_vectors<Vec3>(tips, "tips"), axis = to_vectors<Vec3>(axes, "axes");
-  require(tip.size() == axis.size(), "tips and axes must have the same shape (N, 3)");
-  Placements placements;
-  placements.positions.resize(tip.size());
-  for (std::size_t i = 0; i < tip.size(); ++i)
-    placements.positions[i].pose = ToolPose::from_tip(tool, tip[i], axis[i]);
-  without_gil([&] { judge_by_sampling(model, tool, placements, context); });
-  return column(placements.positions, &Placement::clearance_hi);
-}
-
 py::array_t<bool> restrict_to_faces(const SurfaceModel& model,
                                     const Tool& tool,
                                     const DoubleArray& points,
@@ -176,9 +161,9 @@ void bind_positioner(py::class_<Positioner>& c) {
         py::kw_only(),
         py::arg("spins_deg") = py::none(),
         py::arg("context"),
-        "Positions over plan points (N, 2) of the set-up frame. spins_deg: (N,), a spin for each point in "
-        "place "
-        "of the positioner's own.");
+        "Positions over plan points (N, 2) of the set-up frame. spins_deg: (N,), a spin for each point, not "
+        "the "
+        "positioner's own.");
 }
 
 void bind_spins(py::class_<Positioner>& c) {
@@ -219,26 +204,6 @@ void bind_contacts(py::class_<Positioner>& c) {
         "ring's equator and 90 on its bottom.");
 }
 
-void bind_judges(py::module_& m) {
-  m.def("sampled_clearance",
-        &sampled_clearance,
-        py::arg("model"),
-        py::arg("tool"),
-        py::arg("tips"),
-        py::arg("axes"),
-        py::arg("context"),
-        "Least sampled signed distance (mm) of the surfaces from the tool at each tip, axis (N, 3); at most "
-        "the "
-        "tool's radius.");
-  m.def("restrict_to_faces",
-        &restrict_to_faces,
-        py::arg("model"),
-        py::arg("tool"),
-        py::arg("points"),
-        py::arg("margin_mm") = 0.0,
-        "Which plan points (N, 2) lie over a face to machine, or within margin_mm of one in plan.");
-}
-
 }  // namespace
 
 void bind_positioning(py::module_& m) {
@@ -249,7 +214,13 @@ void bind_positioning(py::module_& m) {
   bind_positioner(positioner);
   bind_spins(positioner);
   bind_contacts(positioner);
-  bind_judges(m);
+  m.def("restrict_to_faces",
+        &restrict_to_faces,
+        py::arg("model"),
+        py::arg("tool"),
+        py::arg("points"),
+        py::arg("margin_mm") = 0.0,
+        "Which plan points (N, 2) lie over a face to machine, or within margin_mm of one in plan.");
 }
 
 }  // namespace mpm::bindings

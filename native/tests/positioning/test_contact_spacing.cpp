@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "mpm/positioning/contact_spacing.h"
+#include "mpm/positioning/registry.h"
 #include "mpm/positioning/spin_candidates.h"
 #include "thesis.h"
 

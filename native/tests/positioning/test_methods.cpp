@@ -4,7 +4,9 @@
 
 #include "mpm/footprint/raster.h"
 #include "mpm/gouge/clearance_sampler.h"
-#include "mpm/positioning/method.h"
+#include "mpm/gouge/sample_poses.h"
+#include "mpm/positioning/place_all.h"
+#include "mpm/positioning/registry.h"
 #include "thesis.h"
 
 namespace mpm {
@@ -31,6 +33,14 @@ Placements place(const char* method,
   return place_all(*make_method(method, model, tool, options), points, context);
 }
 
+void judge_by_sampling(const SurfaceModel& model, const Tool& tool, Placements& placements) {
+  std::vector<ToolPose> poses;
+  for (const Placement& one : placements.positions) poses.push_back(one.pose);
+  Context context(2);
+  const std::vector<double> found = sample_poses(model, tool, poses, context);
+  for (std::size_t i = 0; i < found.size(); ++i) placements.positions[i].clearance_hi = found[i];
+}
+
 std::size_t count(const Placements& p, PositionStatus status) {
   return std::size_t(
       std::count_if(p.positions.begin(), p.positions.end(), [&](auto& one) { return one.status == status; }));
@@ -45,9 +55,8 @@ class OnThesisSurface : public ::testing::TestWithParam<testing::Thesis> {
 // Independent re-implementations of VCRF cut in by 3 to 8 um at their positions and find two contacts nearly
 // everywhere.
 TEST_P(OnThesisSurface, VcrfIsAsGoodAsItsSource) {
-  Context context(2);
   Placements p = place("vcrf", model, every(thesis_footprint(), 5));
-  judge_by_sampling(model, tool, p, context);
+  judge_by_sampling(model, tool, p);
   EXPECT_GE(count(p, PositionStatus::two_contacts), p.positions.size() * 98 / 100);
   for (const Placement& one : p.positions) EXPECT_GT(one.clearance_hi, -0.008);
 }
@@ -71,10 +80,9 @@ TEST_P(OnThesisSurface, ExactIsProvenAndTouchesTwice) {
 // Neither may tilt further than the other allows: the sampled method overshoots by its grid only.
 TEST_P(OnThesisSurface, ExactNeverTiltsLessThanVcrfWhereVcrfIsFree) {
   const std::vector<Vec2> points = every(thesis_footprint(), 9);
-  Context context(2);
   const Placements exact = place("exact", model, points);
   Placements vcrf = place("vcrf", model, points);
-  judge_by_sampling(model, tool, vcrf, context);
+  judge_by_sampling(model, tool, vcrf);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const bool same_contact =
         (exact.positions[i].first_contact - vcrf.positions[i].first_contact).norm() < 0.01;

@@ -3,7 +3,8 @@
 
 #include <cstring>
 
-#include "mpm/positioning/method.h"
+#include "mpm/positioning/place_all.h"
+#include "mpm/positioning/registry.h"
 #include "thesis.h"
 
 namespace mpm {

@@ -12,6 +12,7 @@ from freecad_mpm.core.base import InputError
 from freecad_mpm.core.control import kinematics
 from freecad_mpm.core.machine import joint_path, move_seconds, slowed_cuts
 from freecad_mpm.core.machine.axis_ramps import ramp_seconds, rest_to_rest_seconds
+from freecad_mpm.core.machine.machine import MachineControl
 
 # 500 mm/s and 5000 mm/s2 along X, Y and Z; 120 deg/s and 360 deg/s2 of both rotary axes
 MACHINE = "table_bc"
@@ -23,7 +24,7 @@ def with_jerk(jerk=JERK, **control):
     """The machine with a jerk for X, Y and Z, and a control of its own."""
     machine = machines.load(MACHINE)
     axes = tuple(replace(axis, max_jerk_mm_per_s3=jerk) for axis in machine.linear_axes)
-    return replace(machine, linear_axes=axes, control=machines.MachineControl(**control))
+    return replace(machine, linear_axes=axes, control=MachineControl(**control))
 
 
 def seconds_of(tip, axis, feed_mm_per_s, kind=None, machine=None):
@@ -216,6 +217,6 @@ def test_short_blocks_take_the_time_that_the_control_needs_for_each():
 @pytest.mark.parametrize("key", ["block_time_ms", "stops_at_blocks"])
 def test_wrong_values_of_the_control_are_named(key):
     with pytest.raises(InputError, match=rf"\[control\] {key}"):
-        machines.MachineControl(**{key: -1.0})
+        MachineControl(**{key: -1.0})
     with pytest.raises(InputError, match="max_jerk_mm_per_s3"):
         with_jerk(0.0)

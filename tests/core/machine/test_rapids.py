@@ -44,7 +44,7 @@ def turning_rapid(walls, tcp=True, height=0.0):
     )
     found = with_rapids_proven(
         SimpleNamespace(post=PostSpec(tcp=tcp)),
-        SimpleNamespace(machine=machine),
+        machine,
         SimpleNamespace(cells=_core.CellTree(model, TOOL), tool=TOOL),
         path,
         joints,

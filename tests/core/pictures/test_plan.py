@@ -48,7 +48,7 @@ def plan_on_floor(usable=True, flip=1.0):
     contacts = np.stack([tip + [6.7, 0, 0], tip - [6.7, 0, 0]], axis=1)
     contacts[3, 1] = np.nan
     status = np.where(np.arange(count) == 3, "tilt_limited", "two_contacts")
-    return SimpleNamespace(
+    positions = SimpleNamespace(
         tip=tip,
         axis=axis * flip,
         contacts=contacts,
@@ -56,8 +56,8 @@ def plan_on_floor(usable=True, flip=1.0):
         clearance=clearance,
         tilt_deg=np.linspace(0, 10, count),
         pass_index=passes,
-        path=moves,
     )
+    return SimpleNamespace(**vars(positions), positions=positions, path=moves)
 
 
 def pixels(png):

@@ -2,16 +2,30 @@
 // derivatives.
 #pragma once
 
+#include <concepts>
+
 #include "mpm/contact/drop.h"
 #include "mpm/contact/insert.h"
 #include "mpm/contact/patch_search.h"
 
 namespace mpm {
 
-// A motion of the tool with parameter x; the ring meets a surface point s at x = arrival(s). The tool's first
-// touch is the least arrival over the surface. How a surface point moves relative to the tool: ds/dx =
-// velocity(s), whose change along a vector d is velocity_change(d), and d2s/dx2 = acceleration(s). order(s)
-// compares arrivals without their cost: it is less than order_of(x) where the arrival is less than x.
+// A motion of the tool with parameter x, in which the ring meets a surface point s at x = arrival(s),
+// infinity for never. The tool's first touch is the least arrival over the surface.
+template <class A>
+concept Approach = requires(const A& approach, const Vec3& s, double x) {
+  { approach.arrival(s) } -> std::same_as<double>;
+  // Compares arrivals without their cost: order(s) < order_of(x) where arrival(s) < x.
+  { approach.order(s) } -> std::same_as<double>;
+  { approach.order_of(x) } -> std::same_as<double>;
+  { approach.pose(x) } -> std::same_as<ToolPose>;
+  // How a surface point moves relative to the tool: ds/dx = velocity(s), d2s/dx2 = acceleration(s); and how
+  // the velocity changes along a vector.
+  { approach.velocity(s) } -> std::same_as<Vec3>;
+  { approach.velocity_change(s) } -> std::same_as<Vec3>;
+  { approach.acceleration(s) } -> std::same_as<Vec3>;
+};
+
 // Lowering an upright tool over plan point `at` along -z; x = -(height of the torus centre), mm.
 class Drop {
  public:
@@ -51,6 +65,8 @@ class Tilt {
   const Insert& insert_;
 };
 
+static_assert(Approach<Drop> && Approach<Tilt>);
+
 // The distance from the major circle at surface point s: its gradient (unit, away from the tool), and its
 // Hessian by the two directions that it bends in.
 struct RingDistance {
@@ -73,8 +89,8 @@ RingDistance ring_distance(const Tool& tool, const ToolPose& pose, const Vec3& s
 
 // Derivatives of the arrival x at `p` by the implicit function theorem on distance(s(u, v), pose(x)) = 0. The
 // gradient is NaN where the motion is tangent to the ring there.
-template <class Approach>
-Derivatives arrival_derivatives(const Tool& tool, const Approach& approach, const SurfacePoint& p, double x) {
+template <Approach A>
+Derivatives arrival_derivatives(const Tool& tool, const A& approach, const SurfacePoint& p, double x) {
   Derivatives a;
   a.value = x;
   const RingDistance d = ring_distance(tool, approach.pose(x), p.s);

@@ -9,10 +9,10 @@ constexpr int kMaxPatches = 64;  // crossed on the way
 constexpr int kGoldenSteps = 60;
 constexpr double kGolden = 0.6180339887498949;
 
-template <class Approach>
+template <Approach A>
 class ArrivalObjective {
  public:
-  ArrivalObjective(const Tool& tool, const Approach& approach) : tool_(tool), approach_(approach) {}
+  ArrivalObjective(const Tool& tool, const A& approach) : tool_(tool), approach_(approach) {}
   double value(const Vec3& s) const { return approach_.arrival(s); }
   Derivatives derivatives(const SurfacePoint& p, double x) const {
     return arrival_derivatives(tool_, approach_, p, x);
@@ -20,7 +20,7 @@ class ArrivalObjective {
 
  private:
   const Tool& tool_;
-  const Approach& approach_;
+  const A& approach_;
 };
 
 // A point just beyond the border that holds the arrival, in the neighbouring patch; or the same point on a
@@ -36,8 +36,8 @@ Vec2 across_border(const PatchMinimum& at, const ParamBox& patch, const ParamBox
 }
 
 // Least arrival along the trimming polygon that passes nearest to (u, v), downhill from there.
-template <class Approach>
-PatchMinimum along_trim(const Approach& approach, const Face& face, double u, double v) {
+template <Approach A>
+PatchMinimum along_trim(const A& approach, const Face& face, double u, double v) {
   const auto at = [&](const Vec2& uv) { return approach.arrival(face.surface.point(uv.x(), uv.y())); };
   const std::vector<Vec2>* loop = nullptr;
   std::size_t nearest = 0;
@@ -82,10 +82,10 @@ PatchMinimum along_trim(const Approach& approach, const Face& face, double u, do
 
 }  // namespace
 
-template <class Approach>
-PatchMinimum first_arrival(const Tool& tool, const Approach& approach, const Face& face, double u, double v) {
-  const ArrivalObjective<Approach> objective(tool, approach);
-  using Search = PatchSearch<ArrivalObjective<Approach>>;
+template <Approach A>
+PatchMinimum first_arrival(const Tool& tool, const A& approach, const Face& face, double u, double v) {
+  const ArrivalObjective<A> objective(tool, approach);
+  using Search = PatchSearch<ArrivalObjective<A>>;
   const BezierPatch* patch = &face.surface.patch_at(u, v);
   PatchMinimum best = Search(objective, *patch).run(u, v);
   int steps = best.newton_steps;

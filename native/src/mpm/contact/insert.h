@@ -23,6 +23,10 @@ struct Insert {
   }
 };
 
+// Of the cutter's radius: a contact nearer to the tool's axis than this has no insert; which way it lies is
+// rounding or Newton's tolerance.
+inline constexpr double kOnAxis = 1e-7;
+
 // The insert of a tool at `pose` towards a first contact; requires `first_contact` off the tool axis.
 inline Insert insert_through(const Tool& tool, const ToolPose& pose, const Vec3& first_contact) {
   const Vec3 inward = pose.torus_center - first_contact;

@@ -32,7 +32,8 @@ struct PatchMinimum {
 inline constexpr int kMaxNewtonSteps = 60;  // on one patch
 inline constexpr int kMaxHalvings = 40;     // of one step
 // A contact counts as found when the slope of the gap along the surface is this little and Newton's step
-// promises to gain no more than so much (mm or rad).
+// promises to gain no more than so much (mm or rad): what rounding leaves at the coordinates of a part, hence
+// no part of the tool.
 inline constexpr double kParallel = 1e-12;
 inline constexpr double kGained = 1e-13;
 // Steps that promise less than kGained are judged by the slope alone, the values being equal to rounding: so

@@ -8,12 +8,11 @@
 #include "mpm/base/error.h"
 #include "mpm/base/parallel.h"
 #include "mpm/contact/motion_bound.h"
+#include "mpm/gouge/quarters.h"
 
 namespace mpm {
 namespace {
 
-constexpr double kTrimResolution = 1e-6;       // mm
-constexpr double kFinestCell = 1e-10;          // mm: smaller cells are all rounding
 constexpr double kUnitTolerance = 1e-6;        // of the length of an axis that comes from a file
 constexpr double kOppositeSlack = 1e-6;        // radians: nearer to opposite, the great circle is not known
 constexpr std::uint64_t kCellsPerLook = 1024;  // between two looks at a cancel: a fraction of a millisecond
@@ -131,8 +130,7 @@ class Search {
   void look_at(const Piece& piece, const Interval& interval, double distance, double allowance) {
     if (distance >= result_.hi) return;
     const TrimRegion& trim = tree_.model().faces()[tree_.nodes()[piece.node].face].trim;
-    if (piece.trimmed && piece.cell.radius > kTrimResolution &&
-        !trim.contains(piece.box.u_mid(), piece.box.v_mid()))
+    if (!counts_as_surface(trim, piece.trimmed, piece.cell.radius, piece.box.u_mid(), piece.box.v_mid()))
       return;
     result_.hi = distance;
     result_.time = 0.5 * (interval.t0 + interval.t1);
@@ -161,20 +159,13 @@ class Search {
       for (std::uint32_t i = 0; i < node.children; ++i) push_node(node.first_child + i, task);
       return;
     }
-    // Halved in both parameters, an eighth of the third derivative is left.
-    const double third = (piece.deep ? piece.third : node.third) / 8;
-    const double um = piece.box.u_mid(), vm = piece.box.v_mid();
-    for (const ParamBox& box : {ParamBox{piece.box.u0, um, piece.box.v0, vm},
-                                ParamBox{um, piece.box.u1, piece.box.v0, vm},
-                                ParamBox{piece.box.u0, um, vm, piece.box.v1},
-                                ParamBox{um, piece.box.u1, vm, piece.box.v1}}) {
-      bool trimmed = piece.trimmed;
-      if (trimmed) {
-        const TrimRegion::Cover cover = tree_.model().faces()[node.face].trim.cover(box);
-        if (cover == TrimRegion::Cover::outside) continue;
-        trimmed = cover == TrimRegion::Cover::crossing;
-      }
-      push_piece({piece.node, true, trimmed, box, third, taylor_cell(*node.patch, box, third)}, task);
+    const TrimRegion& trim = tree_.model().faces()[node.face].trim;
+    const double third = quarter_third(piece.deep ? piece.third : node.third);
+    for (int quarter = 0; quarter < kQuarters; ++quarter) {
+      const ParamBox box = quarter_box(piece.box, quarter);
+      const QuarterCover cover = quarter_cover(trim, piece.trimmed, box);
+      if (!cover.kept) continue;
+      push_piece({piece.node, true, cover.trimmed, box, third, taylor_cell(*node.patch, box, third)}, task);
     }
   }
 

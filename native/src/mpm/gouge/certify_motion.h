@@ -31,13 +31,18 @@ struct CertifyMotionOptions {
 
 // Proves a lower bound of the clearance of the tool from every face all the way from pose `from` to pose `to`
 // (tip on a straight line, axis on a great circle, both even in time), the real axis being off by at most
-// axis_deviation. free: lo >= -tolerance; gouge: the tool on the great circle cuts deeper than the tolerance
-// at the witness; undecided: the budget ran out, or a point was found so deep that the deviation could take
-// it beyond the tolerance, or the call was cancelled. Unless free, lo is -infinity. A motion whose swept box
-// keeps off that of all faces takes no cell.
+// axis_deviation. A motion whose swept box keeps off that of all faces takes no cell. Pieces of trimmed faces
+// too small to tell from their border count as surface (quarters.h says how small).
 //
-// Pieces of trimmed faces too small to tell from their border count as
-// surface, as in certify_pose.
+// Requires: finite poses with unit axes, a tree of the tool's judge_cells().
+//
+// Guarantees: free: lo >= -tolerance; gouge: the tool on the great circle cuts deeper than the tolerance at
+// the witness. Unless free, lo is -infinity.
+//
+// Fails: undecided when the budget ran out, or a point was found so deep that the deviation could take it
+// beyond the tolerance, or the call was cancelled, or the axes are opposite.
+//
+// Threads: any number may share the tree.
 MotionCertificate certify_motion(const CellTree& tree,
                                  const Tool& tool,
                                  const ToolPose& from,

@@ -7,12 +7,12 @@
 
 #include "mpm/contact/clearance_bound.h"
 #include "mpm/contact/lowest_point.h"
+#include "mpm/gouge/quarters.h"
 
 namespace mpm {
 namespace {
 
-constexpr double kTrimResolution = 1e-6;  // mm
-constexpr double kFinestCell = 1e-10;     // mm: smaller cells are all rounding
+static_assert(kLanes == kQuarters);  // the quarters of a cell are one batch
 // Of the cutter's radius: cells from this size down, with a centre this near, are searched for a contact.
 constexpr double kContactCell = 1.0 / 8, kContactGap = 1.0 / 1000;
 constexpr std::size_t kMaxContacts = 8;
@@ -36,11 +36,6 @@ struct Group {
 };
 
 std::uint8_t first_lanes(std::size_t count) { return std::uint8_t((1u << count) - 1); }
-
-ParamBox quarter_box(const ParamBox& box, int lane) {
-  const double um = box.u_mid(), vm = box.v_mid();
-  return {lane & 1 ? um : box.u0, lane & 1 ? box.u1 : um, lane & 2 ? vm : box.v0, lane & 2 ? box.v1 : vm};
-}
 
 // One cell that its bound did not settle.
 struct Cell {
@@ -223,7 +218,7 @@ class Search {
   bool look_at(bool trimmed, double cell_radius, const Witness& point) {
     if (point.distance >= result_.hi) return true;
     const TrimRegion& trim = tree_.model().faces()[point.face].trim;
-    if (trimmed && cell_radius > kTrimResolution && !trim.contains(point.u, point.v)) return true;
+    if (!counts_as_surface(trim, trimmed, cell_radius, point.u, point.v)) return true;
     result_.hi = point.distance;
     result_.witness = point;
     if (point.distance < -options_.sharpness) deep_enough_ = kDeeper * point.distance;
@@ -278,7 +273,7 @@ class Search {
           {Group::Kind::children, first_lanes(cell.node.children), 0, cell.index, cell.node.batch});
       return;
     }
-    Group group{Group::Kind::quarters, kAllLanes, 0, cell.index, 0, cell.box, cell.third / 8};
+    Group group{Group::Kind::quarters, kAllLanes, 0, cell.index, 0, cell.box, quarter_third(cell.third)};
     if (cell.trimmed && !keep_inside(group, cell.node.face)) return;
     make_quarters(cell, group);
     stack_.push_back(group);
@@ -287,10 +282,10 @@ class Search {
   // Drops quarters outside the trim and marks those that it crosses; false when none is left.
   bool keep_inside(Group& group, std::uint32_t face) const {
     const TrimRegion& trim = tree_.model().faces()[face].trim;
-    for (int lane = 0; lane < kLanes; ++lane) {
-      const TrimRegion::Cover cover = trim.cover(quarter_box(group.box, lane));
-      if (cover == TrimRegion::Cover::outside) group.cells &= std::uint8_t(~(1 << lane));
-      if (cover == TrimRegion::Cover::crossing) group.trimmed |= std::uint8_t(1 << lane);
+    for (int lane = 0; lane < kQuarters; ++lane) {
+      const QuarterCover cover = quarter_cover(trim, true, quarter_box(group.box, lane));
+      if (!cover.kept) group.cells &= std::uint8_t(~(1 << lane));
+      if (cover.trimmed) group.trimmed |= std::uint8_t(1 << lane);
     }
     return group.cells != 0;
   }

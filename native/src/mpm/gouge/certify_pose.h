@@ -36,9 +36,17 @@ struct CertifyOptions {
 
 // Proves a lower bound of the clearance of the tool at `pose` from every face. Cells are split until proven
 // to the tolerance, and until what they may hold of points deeper than the sharpness was looked for: by an
-// estimate of their least clearance, or by Newton's iteration; that part is searched, not proven. free: lo >=
-// -tolerance; gouge: a surface point deeper than the tolerance is in `witness`; undecided: the budget ran
-// out. Pieces of trimmed faces too small to tell from their border (kTrimResolution) count as surface.
+// estimate of their least clearance, or by Newton's iteration; that part is searched, not proven. Pieces of
+// trimmed faces too small to tell from their border count as surface (quarters.h says how small).
+//
+// Requires: a finite pose with a unit axis, a tree of the tool's judge_cells(), 0 < sharpness <= tolerance.
+//
+// Guarantees: free: lo >= -tolerance; gouge: a surface point deeper than the tolerance is in `witness`.
+//
+// Fails: undecided, with lo = -infinity, when the budget ran out or the search stopped at a violation that is
+// within the tolerance.
+//
+// Threads: any number may share the tree.
 Certificate certify_pose(const CellTree& tree,
                          const Tool& tool,
                          const ToolPose& pose,

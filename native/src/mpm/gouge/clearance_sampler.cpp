@@ -13,7 +13,7 @@ constexpr std::size_t kRefined = 4;  // tiles refined
 constexpr int kMaxSplit = 64;        // tiles along each side of a patch
 constexpr double kTilesPerRadius = 2.0;
 constexpr double kMaxTiles = 1e6;
-constexpr double kSafety = 1e-6;  // mm, far above what rounding makes of a bound
+constexpr double kSafety = 1e-6;  // mm, far above what rounding makes of a bound, whatever the tool
 
 double lerp(double a, double b, int i) { return i == kGrid ? b : a + (b - a) * i / kGrid; }
 

@@ -19,7 +19,9 @@ constexpr std::size_t kGrain = 1;  // some 60 positions each
 // many positions rather than made at once.
 constexpr double kMissUnit = 0.01;       // of the wanted spacing, missed beyond the least possible
 constexpr double kTurnUnit = kPi / 180;  // of the axis, from position to position
-constexpr double kShiftUnit = 1;  // mm of the tip, seen from the footprint point: a spun tool goes round P
+// mm of the tip, seen from the footprint point: a spun tool goes round P. A way of the machine, as the turn
+// is: no part of the tool.
+constexpr double kShiftUnit = 1;
 
 double squared(double x) { return x * x; }
 
@@ -102,13 +104,6 @@ void choose(std::span<const Vec2> at,
 }
 
 }  // namespace
-
-double contact_spacing(const Placement& placement, const SpacingRules& rules) {
-  if (placement.status == PositionStatus::curvature_matched) return 0;
-  const Vec3 apart = placement.second_contact - placement.first_contact;
-  return rules.measure == SpacingMeasure::direct ? apart.norm()
-                                                 : (apart - apart.dot(rules.feed) * rules.feed).norm();
-}
 
 SpacedPlacements place_spaced(const Method& method,
                               const std::vector<Vec2>& points,

@@ -14,6 +14,7 @@ namespace {
 constexpr int kRaySteps = 30;        // Newton steps a ray may take; 2 to 6 are usual
 constexpr int kMostBisections = 60;  // 45 degrees halved so often is below a double's resolution
 
+// The source's options, in mm as it has them; who wants others gives them.
 constexpr double kNewtonTolerance = 1e-6;  // mm in plan: far below the drop difference of 0.01
 constexpr double kSameContact = 1e-3;      // mm: about the last grid of rays
 
@@ -146,7 +147,7 @@ Placement Drd::place(const Vec2& at, Counters& counters) const {
   placement.first_contact = first.s;
   placement.tilt = placement.spin = 0.0;
   placement.status = PositionStatus::one_contact;  // a ball, or a contact on the axis, has no insert
-  const bool on_axis = (first.s.head<2>() - at).norm() <= kOnAxis;
+  const bool on_axis = (first.s.head<2>() - at).norm() <= kOnAxis * tool_.radius();
   placement.first_normal = on_axis ? Vec3::UnitZ() : ring_normal(tool_, placement.pose, first.s);
   if (tool_.major_radius > 0 && !on_axis) tilt(at, seeds, placement, counters);
   return placement;

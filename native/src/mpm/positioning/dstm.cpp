@@ -136,7 +136,7 @@ Dstm::Dropped::Dropped(const Dstm& method, const Vec2& at, Counters& counters)
   upright_.pose = {Vec3(at.x(), at.y(), drop->height), Vec3::UnitZ()};
   upright_.first_contact = p_.s, upright_.first_normal = p_.n;
   upright_.tilt = 0;
-  tilts_ = tool.major_radius > 0 && (p_.s.head<2>() - at).norm() > kOnAxis;
+  tilts_ = tool.major_radius > 0 && (p_.s.head<2>() - at).norm() > kOnAxis * tool.radius();
 }
 
 Placement Dstm::Dropped::spun(double spin, Counters& counters) const {

@@ -7,34 +7,35 @@
 #include "mpm/base/frame.h"
 #include "mpm/contact/curvature_limit.h"
 #include "mpm/contact/merging_contact.h"
-#include "mpm/gouge/certify_pose.h"
 #include "mpm/gouge/judge_cells.h"
+#include "mpm/positioning/first_touch.h"
 
 namespace mpm {
 namespace {
 
-constexpr double kStartPerRadius = 1.0 / 4;  // cells whose centres start the searches
-constexpr double kSharpness = 1e-9;          // mm: contacts are found to this depth
-constexpr double kSharpRoundoff = 4096 * kRoundoff;
-constexpr std::uint32_t kSharpBudget = 4000;  // cells; a ring lying on the surface is not resolved further
-constexpr double kGougeTolerance = 1e-3;      // mm
+// mm: the default of what the user asks; no part of the tool, as tolerances of parts are not.
+constexpr double kGougeTolerance = 1e-3;
 constexpr double kCellBudget = 200'000;
-constexpr int kMaxRounds = 64;           // contacts tried before a position is given up
-constexpr int kPointRounds = 16;         // of these, in which a point's own arrival may be taken
-constexpr double kFirstBackStep = 1e-6;  // mm or rad, doubled until the body is clear
-constexpr double kMostBackSteps = 1e3;
-constexpr int kBisections = 50;
-constexpr double kMerged = 0.02;  // mm: a second contact nearer than this is the first
-constexpr double kNearLimit =
-    0.01;  // rad: a second contact this close to the curvature limit may have rivals
+// rad: a second contact this close to the curvature limit may have rivals
+constexpr double kNearLimit = 0.01;
 constexpr double kNoDirection = 1e-9;  // part along the surface that a direction must have
 constexpr double kNoTilt = 1e-9;       // rad
-constexpr double kNoGain = 1e-8;       // mm or rad: a touch earlier by less than this is the same
 
-struct Start {
-  std::uint32_t face;
-  double u, v;
-  Vec3 s;
+// The first contact, and how the tool turns about it.
+struct Pivot {
+  Touch first;
+  Insert insert;
+  double
+      open_side;    // rad: the tilt that puts the contact on the ring's equator or, upright, that of the drop
+  double tilt_max;  // rad
+};
+
+// The tool dropped over a plan point.
+struct Dropped {
+  Placement placement;  // without a pose where `tilts`: that comes with its certificate
+  Touch first;
+  ToolPose upright{Vec3::Constant(kNaN), Vec3::Constant(kNaN)};
+  bool tilts = false;  // else the placement is all there is
 };
 
 class Exact final : public Method {
@@ -43,202 +44,53 @@ class Exact final : public Method {
       : model_(model),
         tool_(tool),
         cells_(options.cells ? options.cells : std::make_shared<CellTree>(judge_cells(model, tool))),
-        tree_(*cells_),
         tilt_max_(options.tilt_max),
-        spin_(options.spin) {
-    const Box3& box = model.bounds();
-    const double size = std::max(box.lo.cwiseAbs().maxCoeff(), box.hi.cwiseAbs().maxCoeff()) + tool.length();
-    judge_.tolerance = options.numbers.at("gouge_mm");
-    judge_.budget = std::uint32_t(options.numbers.at("cell_budget"));
-    noise_ = kSharpRoundoff * size;
-    judge_.sharpness = std::min(std::max(kSharpness, noise_), judge_.tolerance);
-    judge_.sharp_budget = std::min(kSharpBudget, judge_.budget / 2);
-    judge_.stop_at_violation = true;
-  }
+        spin_(options.spin),
+        gouge_(options.numbers.at("gouge_mm")),
+        first_touch_(*cells_, tool_, gouge_, std::uint32_t(options.numbers.at("cell_budget"))) {}
 
   Placement place(const Vec2& at, Counters& counters) const override;
   Placement place(const GivenContact& at, Counters& counters) const override;
   std::unique_ptr<DroppedTool> drop(const Vec2& at, Counters& counters) const override;
 
  private:
-  class Dropped;
-  struct Touch {
-    std::uint32_t face = 0;
-    PatchMinimum at;
-    bool body = false;  // with the flat bottom, the flutes, the shank or the holder, not with the ring
-    bool found() const { return at.value < kInfinity; }
-  };
+  class ReadyTool;
 
-  // P is never its own second contact: the arrival there is 0/0, and what it tends to is the curvature limit.
-  static bool same_contact(const Touch& touch, const Touch& first) {
-    return (touch.at.s - first.at.s).norm() < kMerged;
-  }
-
-  template <class Near>
-  void gather_starts(const Near& near, std::vector<Start>& starts) const;
-  template <class Approach>
-  Touch best_start(const Approach& approach,
-                   const std::vector<Start>& starts,
-                   double limit,
-                   Counters& counters) const;
-  template <class Approach>
-  Touch refine(const Approach& approach, std::uint32_t face, double u, double v, Counters& counters) const;
-  template <class Approach>
-  double body_arrival(const Approach& approach, double x, const Vec3& s) const;
-  template <class Approach>
-  Certificate first_touch(
-      const Approach& approach, const Touch* first, double& x, Touch& touch, Counters& counters) const;
+  Dropped dropped(const Vec2& at, std::vector<Start>& starts, Counters& counters) const;
+  Placement spun(const Dropped& dropped,
+                 double spin,
+                 const std::vector<Start>& starts,
+                 Counters& counters) const;
   void look_beside(
       const Tilt& approach, const Touch& first, double curvature, Touch& second, Counters& counters) const;
-  void tilt(const Touch& first,
-            const Insert& insert,
-            double open_side,
-            double tilt_max,
+  void tilt(const Pivot& pivot,
             const std::vector<Start>& starts,
             Placement& placement,
             Counters& counters) const;
-  void finish(Placement& placement, const Certificate& certificate) const;
-  bool drop(const Vec2& at,
-            std::vector<Start>& starts,
-            Touch& first,
-            Placement& placement,
-            Counters& counters) const;
-  void spin_and_tilt(double spin,
-                     const Touch& first,
-                     const std::vector<Start>& starts,
-                     Placement& placement,
-                     Counters& counters) const;
+  PositionStatus status_of(const Pivot& pivot, const Stop& stop, double curvature) const;
+  void note_second(const Touch& second, const JudgedPose& judged, Placement& placement) const;
+  void finish(Placement& placement, const JudgedPose& judged) const;
 
   const SurfaceModel& model_;
   Tool tool_;
   std::shared_ptr<const CellTree> cells_;
-  const CellTree& tree_;
   double tilt_max_, spin_;
-  double noise_;  // mm: depths down to this are rounding
-  CertifyOptions judge_;
+  double gouge_;  // mm
+  FirstTouch first_touch_;
 };
 
-// Centres of the cells of about a quarter of the cutter's radius that `near(centre, radius)` lets through.
-template <class Near>
-void Exact::gather_starts(const Near& near, std::vector<Start>& starts) const {
-  starts.clear();
-  std::vector<std::uint32_t> stack(tree_.roots().begin(), tree_.roots().end());
-  while (!stack.empty()) {
-    const CellTree::Node& node = tree_.nodes()[stack.back()];
-    stack.pop_back();
-    if (!near(node.cell.c, node.cell.radius)) continue;
-    if (node.children > 0 && node.cell.radius > kStartPerRadius * tool_.radius()) {
-      for (std::uint32_t i = 0; i < node.children; ++i) stack.push_back(node.first_child + i);
-      continue;
-    }
-    const double u = node.box.u_mid(), v = node.box.v_mid();
-    if (!node.trimmed || model_.faces()[node.face].trim.contains(u, v))
-      starts.push_back({node.face, u, v, node.cell.c});
-  }
-}
-
-template <class Approach>
-Exact::Touch Exact::refine(
-    const Approach& approach, std::uint32_t face, double u, double v, Counters& counters) const {
-  Touch touch{face, first_arrival(tool_, approach, model_.faces()[face], u, v)};
-  counters.newton_steps += std::uint64_t(touch.at.newton_steps);
-  counters.evaluations += std::uint64_t(touch.at.newton_steps) + 1;
-  return touch;
-}
-
-// The arrival of the start that arrives first, refined; not found when none arrives before `limit`.
-template <class Approach>
-Exact::Touch Exact::best_start(const Approach& approach,
-                               const std::vector<Start>& starts,
-                               double limit,
-                               Counters& counters) const {
-  const Start* best = nullptr;
-  double least = approach.order_of(limit);
-  for (const Start& s : starts) {
-    const double order = approach.order(s.s);
-    if (order < least) least = order, best = &s;
-  }
-  return best ? refine(approach, best->face, best->u, best->v, counters) : Touch{};
-}
-
-// The greatest x' < x at which s is not inside the tool any more, for a point that is inside at x; x when
-// none is near.
-template <class Approach>
-double Exact::body_arrival(const Approach& approach, double x, const Vec3& s) const {
-  const auto clear = [&](double at) {
-    return signed_distance(tool_, approach.pose(at), s) >= judge_.tolerance / 2;
-  };
-  double inside = x, step = kFirstBackStep;
-  while (!clear(x - step)) {
-    inside = x - step;
-    step *= 2;
-    if (step > kMostBackSteps) return x;
-  }
-  double outside = x - step;
-  for (int k = 0; k < kBisections; ++k) {
-    const double middle = 0.5 * (inside + outside);
-    (clear(middle) ? outside : inside) = middle;
-  }
-  return outside;
-}
-
-// Brings x down to the first touch: the judge looks at the pose at x; where it finds surface inside the tool,
-// the first arrival near that point is the next x, until it finds none. The last certificate belongs to the
-// pose at x. Where faces meet, their borders differ by what their polygons may, and the nearest arrival may
-// be on the wrong one: then the point's own arrival is taken, a few times; what is left is good to half the
-// tolerance. So is what touches the rest of the body, at its deepest point each time. `first`: the contact
-// that the motion keeps, if it keeps one.
-template <class Approach>
-Certificate Exact::first_touch(
-    const Approach& approach, const Touch* first, double& x, Touch& touch, Counters& counters) const {
-  CertifyOptions options = judge_;
-  for (int round = 0;; ++round) {
-    const Certificate certificate = certify_pose(tree_, tool_, approach.pose(x), options);
-    counters.cells += certificate.cells;
-    const Witness& w = certificate.witness;
-    const bool is_violation = w.distance < -options.sharpness;
-    const bool is_dent = w.distance < -noise_ && options.stop_at_violation;
-    if (!(is_violation || is_dent) || round == kMaxRounds) return certificate;
-    // The budget is one for all rounds.
-    if (certificate.cells >= options.budget) return certificate;
-    const Touch ring = refine(approach, w.face, w.u, w.v, counters);
-    const bool is_other = !(first && same_contact(ring, *first));
-    // A depth less than asked for is a long way in x where the contacts are about to merge, and only there.
-    if (!is_violation && !(is_other && ring.at.value < x - kNoGain)) return certificate;
-    options.budget -= std::uint32_t(certificate.cells);
-    if (ring.at.value < x && is_other) {
-      x = ring.at.value;
-      touch = ring;
-      continue;
-    }
-    const double own = approach.arrival(w.s);
-    if (is_other && own < x - kNoGain && round < kPointRounds) {
-      x = own;
-      touch = ring;  // held by the same border
-      touch.at.value = x, touch.at.u = w.u, touch.at.v = w.v, touch.at.s = w.s;
-      continue;
-    }
-    options.stop_at_violation = false;
-    options.sharpness = options.tolerance / 2;
-    if (w.distance >= -options.sharpness) continue;
-    const double body = body_arrival(approach, x, w.s);
-    if (!(body < x)) continue;
-    x = body;
-    touch = {w.face, {}, true};
-    touch.at.value = x, touch.at.u = w.u, touch.at.v = w.v, touch.at.s = w.s;
-  }
-}
-
-void Exact::finish(Placement& placement, const Certificate& certificate) const {
-  placement.clearance_lo = certificate.lo;
+// The one place where a placement gets its pose: with the certificate of that pose.
+void Exact::finish(Placement& placement, const JudgedPose& judged) const {
+  placement.pose = judged.pose();
+  placement.clearance_lo = judged.certificate().lo;
   // The contacts are points of the surface, whether the judge met them or not.
-  placement.clearance_hi = certificate.hi;
+  placement.clearance_hi = judged.certificate().hi;
   for (const Vec3& contact : {placement.first_contact, placement.second_contact})
     if (contact.allFinite())
       placement.clearance_hi =
           std::min(placement.clearance_hi, signed_distance(tool_, placement.pose, contact));
   // What the tool cannot reach without cutting in (holder in the way, budget spent) is no place to cut.
-  if (certificate.verdict != Verdict::free) placement.status = PositionStatus::undecided;
+  if (!judged.is_free()) placement.status = PositionStatus::undecided;
 }
 
 // A second contact that is about to merge with the first comes only a little before the curvature limit, and
@@ -248,131 +100,120 @@ void Exact::look_beside(
   const Face& face = model_.faces()[first.face];
   const auto start = merging_contact(tool_, approach, face, first.at, curvature, second.found());
   if (!start) return;
-  const Touch touch = refine(approach, first.face, start->x(), start->y(), counters);
-  if (touch.at.value < second.at.value && !same_contact(touch, first)) second = touch;
+  const Touch touch = first_touch_.refine(approach, first.face, start->x(), start->y(), counters);
+  if (touch.at.value < second.at.value && !first_touch_.same_contact(touch, first)) second = touch;
 }
 
-// Comes down from the curvature limit or `tilt_max` to the first touch; the range ends at `open_side`.
-void Exact::tilt(const Touch& first,
-                 const Insert& insert,
-                 double open_side,
-                 double tilt_max,
+PositionStatus Exact::status_of(const Pivot& pivot, const Stop& stop, double curvature) const {
+  const bool merged = stop.last.found() && first_touch_.same_contact(stop.last, pivot.first);
+  if (stop.x <= pivot.open_side + kNoTilt) return PositionStatus::bridged;
+  if (stop.last.found() && !merged) return PositionStatus::two_contacts;
+  if (merged || curvature <= pivot.tilt_max) return PositionStatus::curvature_matched;
+  const bool held = pivot.first.at.on_border_u || pivot.first.at.on_border_v;
+  return held ? PositionStatus::edge_contact : PositionStatus::tilt_limited;
+}
+
+// What stopped the tilt is the second contact, unless the tool begins beyond it.
+void Exact::note_second(const Touch& second, const JudgedPose& judged, Placement& placement) const {
+  if (judged.is_free() && std::abs(signed_distance(tool_, judged.pose(), second.at.s)) > gouge_) return;
+  placement.second_contact = second.at.s;
+  if (!second.body) placement.second_normal = -ring_distance(tool_, judged.pose(), second.at.s).gradient;
+}
+
+// Comes down from the curvature limit or the tilt limit to the first touch; the range ends at the open side.
+void Exact::tilt(const Pivot& pivot,
                  const std::vector<Start>& starts,
                  Placement& placement,
                  Counters& counters) const {
+  const Touch& first = pivot.first;
   const SurfacePoint p = model_.faces()[first.face].surface.evaluate(first.at.u, first.at.v);
-  const double curvature = curvature_limit(tool_, insert, p, first.at);
-  const double limit = std::max(open_side, std::min(curvature, tilt_max));
-  const Tilt approach(tool_, insert);
-  double x = limit;
-  Touch second = best_start(approach, starts, x, counters);
-  if (second.found() && same_contact(second, first)) second = {};
-  if (curvature <= tilt_max && !(second.at.value < curvature - kNearLimit))
+  const double curvature = curvature_limit(tool_, pivot.insert, p, first.at);
+  const Tilt approach(tool_, pivot.insert);
+  const double most = std::max(pivot.open_side, std::min(curvature, pivot.tilt_max));
+  Descent descent{most, pivot.open_side, most, {}, &first};
+  Touch second = first_touch_.best_start(approach, starts, most, counters);
+  if (second.found() && first_touch_.same_contact(second, first)) second = {};
+  if (curvature <= pivot.tilt_max && !(second.at.value < curvature - kNearLimit))
     look_beside(approach, first, curvature, second, counters);
-  if (second.found() && second.at.value < x)
-    x = second.at.value;
-  else
-    second = {};
-  const Certificate certificate = first_touch(approach, &first, x, second, counters);
+  if (second.found() && second.at.value < most) descent.from = second.at.value, descent.last = second;
+  const Stop stop = first_touch_(approach, descent, counters);
 
-  const bool merged = second.found() && same_contact(second, first);
-  const bool held = first.at.on_border_u || first.at.on_border_v;
-  placement.tilt = std::max(x, open_side);
-  placement.pose = tilted(tool_, insert, placement.tilt);
-  if (second.found() && !merged && x > open_side + kNoTilt)
-    placement.status = PositionStatus::two_contacts;
-  else if (x <= open_side + kNoTilt)
-    placement.status = PositionStatus::bridged;
-  else if (merged || curvature <= tilt_max)
-    placement.status = PositionStatus::curvature_matched;
-  else
-    placement.status = held ? PositionStatus::edge_contact : PositionStatus::tilt_limited;
-  if (second.found() && !merged) {
-    placement.second_contact = second.at.s;
-    if (!second.body) placement.second_normal = -ring_distance(tool_, placement.pose, second.at.s).gradient;
-  }
-  finish(placement, certificate);
+  placement.tilt = stop.x;
+  placement.status = status_of(pivot, stop, curvature);
+  if (stop.last.found() && !first_touch_.same_contact(stop.last, first))
+    note_second(stop.last, stop.judged, placement);
+  finish(placement, stop.judged);
 }
 
-// Fills placement with the upright tool and `first` with P; false when nothing can be tilted about it, and
-// the placement is all there is.
-bool Exact::drop(const Vec2& at,
-                 std::vector<Start>& starts,
-                 Touch& first,
-                 Placement& placement,
-                 Counters& counters) const {
-  gather_starts(
-      [&](const Vec3& c, double radius) {
-        return (c.head<2>() - at).squaredNorm() <= (tool_.radius() + radius) * (tool_.radius() + radius);
-      },
-      starts);
+Dropped Exact::dropped(const Vec2& at, std::vector<Start>& starts, Counters& counters) const {
+  first_touch_.starts_under(at, starts);
+  Dropped found;
+  Placement& placement = found.placement;
   placement.status = PositionStatus::off_part;
   const Drop approach(tool_, at);
-  first = best_start(approach, starts, kInfinity, counters);
-  if (!first.found()) return false;
-  double x = first.at.value;
-  const Certificate certificate = first_touch(approach, nullptr, x, first, counters);
-  if (model_.faces()[first.face].check) return false;
-  placement.pose = approach.pose(x);
+  const Touch start = first_touch_.best_start(approach, starts, kInfinity, counters);
+  if (!start.found()) return found;
+  const double x = start.at.value;
+  const Stop stop = first_touch_(approach, {x, first_touch_.highest_drop(), x, start}, counters);
+  const ToolPose& pose = stop.judged.pose();
+  const Touch& first = stop.last;
+  if (model_.faces()[first.face].check) return found;
   placement.first_contact = first.at.s;
   placement.tilt = 0;
-  placement.first_normal =
-      first.body ? placement.pose.axis : Vec3(-ring_distance(tool_, placement.pose, first.at.s).gradient);
-  const bool on_axis = !((first.at.s - placement.pose.torus_center).head<2>().norm() > kMerged);
-  if (tool_.major_radius > 0 && !on_axis && !first.body && certificate.verdict == Verdict::free) return true;
+  placement.first_normal = first.body ? pose.axis : Vec3(-ring_distance(tool_, pose, first.at.s).gradient);
+  const bool on_axis = !((first.at.s - pose.torus_center).head<2>().norm() > first_touch_.merged());
+  found.first = first, found.upright = pose;
+  found.tilts = tool_.major_radius > 0 && !on_axis && !first.body && stop.judged.is_free();
+  if (found.tilts) return found;
   placement.status = PositionStatus::one_contact;
-  finish(placement, certificate);
-  return false;
+  finish(placement, stop.judged);
+  return found;
 }
 
-// From the upright tool of `placement` to the position.
-void Exact::spin_and_tilt(double spin,
-                          const Touch& first,
-                          const std::vector<Start>& starts,
-                          Placement& placement,
-                          Counters& counters) const {
-  Insert insert = insert_through(tool_, placement.pose, first.at.s);
-  double open_side = 0;
-  if (spin != 0) {
-    const Vec3& normal = placement.first_normal;
-    const Mat3 turn = rotation(normal, spin);
-    insert = {insert.center, turn * insert.u1, turn * insert.v1, turn * insert.w1};
-    open_side = -std::atan2(normal.dot(insert.w1), normal.dot(insert.v1));
+// From the upright tool to the position.
+Placement Exact::spun(const Dropped& dropped,
+                      double spin,
+                      const std::vector<Start>& starts,
+                      Counters& counters) const {
+  Placement placement = dropped.placement;
+  if (dropped.tilts) {
+    Insert insert = insert_through(tool_, dropped.upright, dropped.first.at.s);
+    double open_side = 0;
+    if (spin != 0) {
+      const Vec3& normal = placement.first_normal;
+      const Mat3 turn = rotation(normal, spin);
+      insert = {insert.center, turn * insert.u1, turn * insert.v1, turn * insert.w1};
+      open_side = -std::atan2(normal.dot(insert.w1), normal.dot(insert.v1));
+    }
+    tilt({dropped.first, insert, open_side, tilt_max_}, starts, placement, counters);
   }
-  tilt(first, insert, open_side, tilt_max_, starts, placement, counters);
+  if (placement.pose.axis.allFinite()) placement.spin = spin;
+  return placement;
 }
 
 Placement Exact::place(const Vec2& at, Counters& counters) const {
   thread_local std::vector<Start> starts;
-  Placement placement;
-  Touch first;
-  if (drop(at, starts, first, placement, counters)) spin_and_tilt(spin_, first, starts, placement, counters);
-  if (placement.pose.axis.allFinite()) placement.spin = spin_;
-  return placement;
+  const Dropped found = dropped(at, starts, counters);
+  return spun(found, spin_, starts, counters);
 }
 
-class Exact::Dropped final : public DroppedTool {
+class Exact::ReadyTool final : public DroppedTool {
  public:
-  Dropped(const Exact& method, const Vec2& at, Counters& counters)
-      : method_(method), tilts_(method.drop(at, starts_, first_, upright_, counters)) {}
+  ReadyTool(const Exact& method, const Vec2& at, Counters& counters)
+      : method_(method), dropped_(method.dropped(at, starts_, counters)) {}
 
   Placement spun(double spin, Counters& counters) const override {
-    Placement placement = upright_;
-    if (tilts_) method_.spin_and_tilt(spin, first_, starts_, placement, counters);
-    if (placement.pose.axis.allFinite()) placement.spin = spin;
-    return placement;
+    return method_.spun(dropped_, spin, starts_, counters);
   }
 
  private:
   const Exact& method_;
   std::vector<Start> starts_;
-  Touch first_;
-  Placement upright_;
-  bool tilts_;
+  Dropped dropped_;
 };
 
 std::unique_ptr<DroppedTool> Exact::drop(const Vec2& at, Counters& counters) const {
-  return std::make_unique<Dropped>(*this, at, counters);
+  return std::make_unique<ReadyTool>(*this, at, counters);
 }
 
 // The insert's frame starts on the equator: v1 along the normal, the tool lying on the surface, and its far
@@ -399,9 +240,8 @@ Placement Exact::place(const GivenContact& at, Counters& counters) const {
   Touch first{at.face, {}, false};
   first.at.value = 0, first.at.u = at.u, first.at.v = at.v, first.at.s = p.s;
   thread_local std::vector<Start> starts;
-  const double reach = 2 * tool_.radius();
-  gather_starts([&](const Vec3& c, double radius) { return (c - p.s).norm() <= reach + radius; }, starts);
-  tilt(first, insert, 0, kPi / 2 + tilt_max_, starts, placement, counters);
+  first_touch_.starts_round(p.s, 2 * tool_.radius(), starts);
+  tilt({first, insert, 0, kPi / 2 + tilt_max_}, starts, placement, counters);
   return placement;
 }
 

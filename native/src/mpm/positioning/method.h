@@ -1,15 +1,12 @@
-// The one interface of all positioning methods.
+// The one interface of all positioning methods. registry.h has them by name, place_all.h runs them.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <span>
 #include <string>
-#include <vector>
 
-#include "mpm/base/context.h"
 #include "mpm/surface/cell_tree.h"
 #include "mpm/surface/surface_model.h"
 #include "mpm/tool/tool.h"
@@ -75,8 +72,11 @@ struct GivenContact {
   Vec3 ring_direction;
 };
 
-// The tool dropped over one plan point, to be spun and tilted as often as wanted; the drop is done once. Used
-// by one thread at a time, and not longer than its method lives.
+// The tool dropped over one plan point, to be spun and tilted as often as wanted; the drop is done once.
+//
+// Requires: not to live longer than its method.
+//
+// Threads: used by one at a time.
 class DroppedTool {
  public:
   virtual ~DroppedTool() = default;
@@ -85,12 +85,18 @@ class DroppedTool {
   virtual Placement spun(double spin, Counters& counters) const = 0;
 };
 
-// Positions one tool on one model. Set-up frame: the tool comes from +z. place() may be called from several
-// threads.
+// Positions one tool on one model. Set-up frame: the tool comes from +z.
+//
+// Guarantees: a position depends on its own point alone. A lower bound of the clearance, where there is one,
+// is proven for the very pose that it comes with.
+//
+// Fails: what the mathematics brings is a status, never thrown.
+//
+// Threads: place() and drop() may be called from several.
 class Method {
  public:
   virtual ~Method() = default;
-  // The tool over plan point `at`. Never throws for what the mathematics brings: that is the status.
+  // The tool over plan point `at`.
   virtual Placement place(const Vec2& at, Counters& counters) const = 0;
   // The tool at a given contact, come down from the open side. `tilt` of the result is the contact angle: 0
   // on the ring's equator, 90 degrees on its bottom. Throws std::invalid_argument where the method has no
@@ -100,48 +106,5 @@ class Method {
   // cannot spin.
   virtual std::unique_ptr<DroppedTool> drop(const Vec2& at, Counters& counters) const;
 };
-
-struct MethodInfo {
-  const char* name;
-  const char* guarantee;                  // "sampled" or "proven"
-  bool spins;                             // has Method::drop, and takes a spin
-  std::map<std::string, double> numbers;  // option names and the source's defaults
-  std::unique_ptr<Method> (*make)(const SurfaceModel&, const Tool&, const MethodOptions&);
-};
-
-const std::vector<MethodInfo>& methods();
-
-// Throws std::invalid_argument for an unknown method or option.
-std::unique_ptr<Method> make_method(const std::string& name,
-                                    const SurfaceModel& model,
-                                    const Tool& tool,
-                                    MethodOptions options);
-
-struct Placements {
-  std::vector<Placement> positions;  // one a point, in the order of the points
-  Counters counters;
-};
-
-// Every point in parallel; the result does not depend on the number of threads.
-Placements place_all(const Method& method, const std::vector<Vec2>& points, Context& context);
-// Every point with every spin (radians), point by point: position i * spins.size() + k has spin k. Throws
-// std::invalid_argument where the method cannot spin.
-Placements place_spins(const Method& method,
-                       const std::vector<Vec2>& points,
-                       std::span<const double> spins,
-                       Context& context);
-// Every point with a spin of its own; points and spins have the same length.
-Placements place_spun(const Method& method,
-                      const std::vector<Vec2>& points,
-                      std::span<const double> spins,
-                      Context& context);
-// Throws std::invalid_argument for a face that the model does not have and a direction that is none.
-Placements place_all(const Method& method,
-                     const SurfaceModel& model,
-                     const std::vector<GivenContact>& contacts,
-                     Context& context);
-
-// Fills clearance_hi of every placed position by dense sampling (see gouge/clearance_sampler.h).
-void judge_by_sampling(const SurfaceModel& model, const Tool& tool, Placements& placements, Context& context);
 
 }  // namespace mpm

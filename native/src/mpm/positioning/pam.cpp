@@ -10,8 +10,9 @@
 namespace mpm {
 namespace {
 
-constexpr int kSeeds = 50;                 // starts of the drop
-constexpr double kNewtonTolerance = 1e-9;  // mm: exact derivatives reach it in a step or two more
+constexpr int kSeeds = 50;  // starts of the drop
+// mm, well below any tolerance: exact derivatives reach it in a step or two more.
+constexpr double kNewtonTolerance = 1e-9;
 
 NewtonRules exact_rules() {
   NewtonRules rules;
@@ -98,7 +99,7 @@ Placement Pam::place(const Vec2& at, Counters& counters) const {
   placement.first_contact = p.s, placement.first_normal = p.n;
   placement.tilt = placement.spin = 0.0;
   placement.status = PositionStatus::one_contact;
-  if (tool_.major_radius > 0 && (p.s.head<2>() - at).norm() > kOnAxis)
+  if (tool_.major_radius > 0 && (p.s.head<2>() - at).norm() > kOnAxis * tool_.radius())
     incline(p, insert_through(tool_, placement.pose, p.s), placement, counters);
   return placement;
 }

@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "mpm/positioning/contact_spacing.h"
+#include "mpm/base/context.h"
+#include "mpm/positioning/spacing_rules.h"
 
 namespace mpm {
 

@@ -5,7 +5,7 @@
 namespace mpm {
 namespace {
 
-constexpr double kPlanTolerance = 1e-6;  // mm, well below any gouge tolerance
+constexpr double kPlanTolerance = 1e-6;  // mm, well below any gouge tolerance: so no part of the tool
 constexpr RayLimits kRay{kPlanTolerance, 20};
 
 }  // namespace

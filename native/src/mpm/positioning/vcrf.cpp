@@ -13,7 +13,8 @@ namespace {
 
 constexpr double kWalkSteps = 8;           // steps of the walk to a window's border, if the surface were even
 constexpr double kMinWalkPart = 1.0 / 64;  // a step is at most this part of the parameter range
-constexpr double kSamePoint = 1e-6;        // mm: a node nearer to P than this is P itself
+// Of the cutter's radius: a node nearer to P than this is P itself, whose circular ray is 0/0.
+constexpr double kSamePoint = 1e-7;
 
 struct Node {
   double value, u, v;
@@ -148,7 +149,8 @@ Node Vcrf::drop(const Vec2& at, const RayGrid& grid, Counters& counters) const {
 void Vcrf::tilt(const Node& first, const RayGrid& grid, Placement& placement, Counters& counters) const {
   const Insert insert = insert_through(tool_, placement.pose, first.s);
   const auto ray = [&](const Vec3& s) {
-    return (s - first.s).norm() <= kSamePoint ? kNaN : circular_ray(tool_, insert.to_local(s));
+    return (s - first.s).norm() <= kSamePoint * tool_.radius() ? kNaN
+                                                               : circular_ray(tool_, insert.to_local(s));
   };
   Node second{};
   for (const Seed& seed : seeds_under_tool(locator_, tool_, placement.pose.torus_center.head<2>())) {
@@ -181,7 +183,7 @@ Placement Vcrf::place(const Vec2& at, Counters& counters) const {
   placement.first_contact = first.s;
   placement.tilt = placement.spin = 0.0;
   const Vec2 radial = first.s.head<2>() - at;
-  const bool on_axis = !(radial.norm() > kSamePoint);
+  const bool on_axis = !(radial.norm() > kOnAxis * tool_.radius());
   Vec3 around = Vec3::Zero();
   if (!on_axis) around.head<2>() = radial * (tool_.major_radius / radial.norm());
   placement.first_normal = (placement.pose.torus_center + around - first.s).normalized();
