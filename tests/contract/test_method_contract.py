@@ -1,9 +1,12 @@
 """What every positioning method owes its caller, whatever it does inside. Known misses of the sampled methods stand
-here as data: when one is mended, its test fails and the line goes."""
+here as data, with how far they go. Some hang on the last digit: one that does not happen is no failure, but a warning
+says so, and when it happens on no machine any more its line goes."""
 
 from __future__ import annotations
 
 import math
+import warnings
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -29,16 +32,26 @@ WITHIN = {
 # How deep (mm) a method may cut in by its own rules, with room for the sampling of the clearance.
 DEEPEST = {"exact": 1e-3, "vcrf": 8e-3, "drd": 0.0105, "dtm": 3e-3, "dstm": 3e-3, "pam": 8e-3}
 
-# (method, case, rewriting) -> the positions that change, and why.
+
+@dataclass(frozen=True)
+class Miss:
+    """The positions that may change: by how much tilt, whether their status may too, and how deep they may cut in."""
+
+    positions: tuple[int, ...]
+    tilt_deg: float
+    status: bool = False
+    deepest_mm: float = 0.0
+
+
+NO_MISS = Miss((), 0.0)
+# By method, case and rewriting.
 KNOWN_MISSES = {
     # None of 50 random starts leads to the second contact, or only on one side.
-    ("dtm", "convex", "translation"): [4],
-    ("dstm", "convex", "translation"): [4],
+    ("dtm", "convex", "translation"): Miss((4,), 7.0, status=True),
+    ("dstm", "convex", "translation"): Miss((4,), 7.0, status=True),
     # The grid of rays stands along x and y: turned against the surface it stops up to 0.014 degrees off.
-    ("drd", "saddle", "turned about z"): [0],
-    ("drd", "bowl", "turned about z"): [2, 3],
-    # A plane's curvature is zero but for rounding, and its sign decides between one_contact and curvature_matched.
-    ("pam", "plane", "turned about z"): [0, 1, 2, 3, 4, 5],
+    ("drd", "saddle", "turned about z"): Miss((0,), 0.014),
+    ("drd", "bowl", "turned about z"): Miss((2, 3), 0.014, deepest_mm=0.012),
 }
 # On the bowl tool and surface touch in second order at P. Drop and tilt finds no second contact there and keeps upright.
 UPRIGHT_ON_THE_BOWL = {"dtm", "dstm"}
@@ -88,12 +101,37 @@ def test_the_same_surface_written_otherwise_gives_the_same_positions(
     case = CASES[name]
     other = REWRITINGS[rewriting](case)
     one, two = place(method, case), place(method, other)
-    tilt, clearance = WITHIN[method]
-    moved = np.abs(one["tilt_deg"] - two["tilt_deg"]) > tilt
-    scale = other.scale / case.scale
-    moved |= np.abs(one["clearance"][:, 1] - two["clearance"][:, 1] / scale) > clearance
+    tilt = np.abs(one["tilt_deg"] - two["tilt_deg"])
+    clearance = two["clearance"][:, 1] * case.scale / other.scale
+    within_deg, within_mm = WITHIN[method]
+    moved = tilt > within_deg
+    moved |= np.abs(one["clearance"][:, 1] - clearance) > within_mm
     moved |= one["status"] != two["status"]
-    assert np.flatnonzero(moved).tolist() == KNOWN_MISSES.get((method, name, rewriting), [])
+    known = KNOWN_MISSES.get((method, name, rewriting), NO_MISS)
+    assert set(np.flatnonzero(moved)) <= set(known.positions)
+    check_known(known, moved, tilt, one["status"] != two["status"])
+    assert clearance.min() > -max(DEEPEST[method], known.deepest_mm)
+
+
+def check_known(known: Miss, moved: np.ndarray, tilt_deg: np.ndarray, status: np.ndarray) -> None:
+    """A known miss goes no farther than known; one that did not happen is named in a warning."""
+    rows = list(known.positions)
+    assert (tilt_deg[rows] <= known.tilt_deg).all()
+    assert known.status or not status[rows].any()
+    for row in rows:
+        if not moved[row]:
+            warnings.warn(f"position {row}: the known miss did not happen here", stacklevel=2)
+
+
+def test_a_known_miss_may_be_absent_but_go_no_farther() -> None:
+    known = Miss((1,), 0.5)
+    nothing = np.zeros(2)
+    with pytest.warns(UserWarning, match="position 1: the known miss did not happen"):
+        check_known(known, nothing > 0, nothing, nothing > 0)
+    check_known(known, np.array([False, True]), np.array([0.0, 0.4]), nothing > 0)
+    for tilt, status in ((0.6, False), (0.4, True)):
+        with pytest.raises(AssertionError):
+            check_known(known, np.array([False, True]), np.array([0.0, tilt]), np.array([False, status]))
 
 
 # Where the ring lies on the surface in second order, both contacts are anywhere on it: exact calls that

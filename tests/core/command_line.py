@@ -9,6 +9,8 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
+# Only what will never end takes so long, on a loaded machine too.
+LIMIT_S = 600.0
 
 
 def start(*arguments: object, stderr: int = subprocess.PIPE) -> subprocess.Popen[str]:
@@ -30,5 +32,5 @@ def listen_to_ctrl_c() -> None:
 def run(*arguments: object) -> tuple[int, str, str]:
     """Exit status, stdout, stderr."""
     process = start(*arguments)
-    out, error = process.communicate(timeout=300)
+    out, error = process.communicate(timeout=LIMIT_S)
     return process.returncode, out, error

@@ -111,7 +111,7 @@ def _run(command, folder, check=True):
         env=environment(folder),
         capture_output=True,
         text=True,
-        timeout=120,
+        timeout=600,  # only what will never end takes so long, on a loaded machine too
         check=check,
     )
 

@@ -106,7 +106,7 @@ def run_with_the_add_on_installed(script: Path, home: Path) -> str:
         stdin=subprocess.DEVNULL,
         capture_output=True,
         text=True,
-        timeout=120,
+        timeout=600,  # only what will never end takes so long, on a loaded machine too
     )
     return done.stdout + done.stderr
 

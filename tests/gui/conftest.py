@@ -14,6 +14,7 @@ def window(tmp_path_factory: pytest.TempPathFactory) -> Iterator[FreeCADWindow]:
     if "DISPLAY" not in os.environ:
         pytest.fail("DISPLAY: must name an X server: run these tests with ./dev test, which starts one")
     with FreeCADWindow(tmp_path_factory.mktemp("freecad")) as running:
+        running.run(REMEMBER_PANEL)
         yield running
 
 
@@ -23,9 +24,27 @@ def part(window: FreeCADWindow) -> Iterator[None]:
     window.run(MAKE_PART)
     yield
     window.run(
-        "Gui.Control.closeDialog()\nfor name in list(FreeCAD.listDocuments()): FreeCAD.closeDocument(name)"
+        "panel = None\nGui.Control.closeDialog()\n"
+        "for name in list(FreeCAD.listDocuments()): FreeCAD.closeDocument(name)"
     )
 
+
+# `panel` is the one that was opened last, once it is whole and shown.
+REMEMBER_PANEL = """
+from freecad_mpm.gui import playback_panel, verification_panel
+panel = None
+
+def remember(module):
+    open_panel = module.open_panel
+    def opened(*arguments):
+        global panel
+        panel = open_panel(*arguments)
+        return panel
+    module.open_panel = opened
+
+remember(playback_panel)
+remember(verification_panel)
+"""
 
 MAKE_PART = """
 import math
@@ -45,5 +64,4 @@ view = Gui.ActiveDocument.ActiveView
 view.viewIsometric()
 view.fitAll()
 Gui.updateGui()
-settle(1000)
 """

@@ -12,7 +12,7 @@ import FreeCADGui
 from PySide import QtCore
 
 FOLDER = os.environ["MPM_DROP"]
-POLL_MS = 50
+POLL_MS = 20
 namespace = {"FreeCAD": FreeCAD, "Gui": FreeCADGui}
 
 

@@ -7,6 +7,12 @@ from pathlib import Path
 from freecad_window import FreeCADWindow
 
 FINISHED = "op = doc.getObject('MultiPointFinish')\nresult = op is not None and not doc.HasPendingTransaction"
+PICKED = "[[s.ObjectName, *s.SubElementNames] for s in Gui.Selection.getSelectionEx()]"
+TOP_MIDDLE = "on_screen(middle_of_face(block, top))"
+PROGRESS = """
+box = window.findChild(QtGui.QProgressDialog)
+result = box is not None and box.isVisible() and box.windowHandle().isExposed()
+"""
 # Few positions, so that a test takes seconds; pictures are made with finer steps.
 COARSE = "import freecad_mpm\nop = freecad_mpm.create(doc, [(block, top)], SideStep=20, ForwardStep=8)\n"
 DRAWN = """
@@ -30,28 +36,45 @@ CUT, AXIS, CONTACT = (toolpath_nodes.CUT_COLORS["two_contacts"], toolpath_nodes.
 
 
 def click_top_face(window: FreeCADWindow) -> None:
-    window.click(window.run("result = on_screen(middle_of_face(block, top))"))
+    window.click(TOP_MIDDLE, hovered="top in Gui.Selection.getPreselection().SubElementNames")
+    window.wait_for(f"{PICKED} == [['Block', top]]", "the top face to be picked")
 
 
 def press(window: FreeCADWindow, command: str) -> None:
-    window.click(window.run(f"result = button_of({command!r})"))
+    window.click(f"button_of({command!r})")
+
+
+def press_in_panel(window: FreeCADWindow, button: str) -> None:
+    """A button of the task panel that ends it."""
+    window.click(f"panel_button(QtGui.QDialogButtonBox.{button})")
+    window.wait_for("not Gui.Control.activeDialog()", "the task panel to close")
+
+
+def finish(window: FreeCADWindow) -> None:
+    """The command's button, until there is an operation, `op`."""
+    press(window, "MPM_Finish")
+    window.wait_for(lambda: window.run(FINISHED), "the finished operation")
+
+
+def press_cancel(window: FreeCADWindow, picture: str = "") -> None:
+    """Cancel in the progress dialog, as soon as it stands on the screen; all is over then."""
+    window.wait_for(lambda: window.run(PROGRESS), "the progress dialog")
+    if picture:
+        window.screenshot(picture)
+    window.click("middle_of(box.findChild(QtGui.QPushButton))")
+    window.wait_for("not doc.HasPendingTransaction", "the cancelled command to end")
 
 
 def dialog_text(window: FreeCADWindow) -> str:
     """The text of the message box that is open; it is closed."""
-    window.wait(lambda: window.run("result = message_box() is not None"))
+    window.wait_for("message_box() is not None", "a message box")
     return str(window.run("box = message_box()\nresult = box.text()\nbox.accept()"))
 
 
 def test_a_click_on_a_face_and_the_command_make_an_operation(window: FreeCADWindow, part: None) -> None:
     click_top_face(window)
-    picked = window.run(
-        "result = [[s.ObjectName, *s.SubElementNames] for s in Gui.Selection.getSelectionEx()]"
-    )
-    assert picked == [["Block", window.run("result = top")]]
     window.screenshot("1-face-picked")
-    press(window, "MPM_Finish")
-    window.wait(lambda: window.run(FINISHED))
+    finish(window)
     assert window.run("result = op.Problem") == ""
     assert window.run("result = op.Positions") > 100
     assert window.run(
@@ -59,29 +82,28 @@ def test_a_click_on_a_face_and_the_command_make_an_operation(window: FreeCADWind
     ) == [True]
     drawn = window.run(DRAWN)
     assert min(drawn.values()) > 100
-    window.run("unfold(op)\nsettle(500)")
+    window.run("unfold(op)")
     window.screenshot("3-properties")
-    window.run("Gui.Selection.clearSelection()\nsettle(500)")
+    window.run("Gui.Selection.clearSelection()")
     window.screenshot("2-operation")
 
 
 def test_passes_axes_and_contacts_are_seen(window: FreeCADWindow, part: None) -> None:
-    window.run(COARSE + PIXELS + "view.fitAll()\nsettle(300)")
+    window.run(COARSE + PIXELS + "view.fitAll()")
     count = "result = [pixels(view, color) for color in (CUT, AXIS, CONTACT)]"
     assert min(window.run(count)) > 20
-    assert window.run("op.ViewObject.Visibility = False\nsettle(200)\n" + count) == [0, 0, 0]
+    assert window.run("op.ViewObject.Visibility = False\n" + count) == [0, 0, 0]
 
 
 def test_undo_takes_the_operation_and_its_job_away_and_redo_brings_them_back(
     window: FreeCADWindow, part: None
 ) -> None:
     click_top_face(window)
-    press(window, "MPM_Finish")
-    window.wait(lambda: window.run(FINISHED))
+    finish(window)
     before = window.run(DRAWN)
     assert window.run("result = doc.UndoNames") == ["Multi-Point Finish"]
-    assert window.run("doc.undo()\nsettle(300)\nresult = [obj.Name for obj in doc.Objects]") == ["Block"]
-    assert window.run("doc.redo()\nsettle(300)\nop = doc.getObject('MultiPointFinish')\n" + DRAWN) == before
+    assert window.run("doc.undo()\nresult = [obj.Name for obj in doc.Objects]") == ["Block"]
+    assert window.run("doc.redo()\nop = doc.getObject('MultiPointFinish')\n" + DRAWN) == before
 
 
 def test_a_reopened_document_shows_the_path_without_computing(
@@ -93,13 +115,13 @@ def test_a_reopened_document_shows_the_path_without_computing(
         "from freecad_mpm.document import computation\n"
         "real, computation.compute = computation.compute, None\n"
         f"doc = FreeCAD.openDocument({str(tmp_path / 'part.FCStd')!r})\n"
-        "settle(500)\n"
+        "idle()\n"
         "op = doc.getObject('MultiPointFinish')\n"
         "computation.compute = real"
     )
     assert window.run(DRAWN) == before
     assert window.run("result = type(op.ViewObject.Proxy).__name__") == "MultiPointFinishViewProvider"
-    window.run(PIXELS + "view = Gui.ActiveDocument.ActiveView\nview.fitAll()\nsettle(300)")
+    window.run(PIXELS + "view = Gui.ActiveDocument.ActiveView\nview.fitAll()")
     assert window.run("result = pixels(view, CUT)") > 20
 
 
@@ -127,12 +149,7 @@ def test_cancel_in_the_progress_dialog_leaves_nothing(window: FreeCADWindow, par
     )
     click_top_face(window)
     press(window, "MPM_Finish")
-    find = "box = window.findChild(QtGui.QProgressDialog)\nresult = box is not None and box.isVisible()"
-    window.wait(lambda: window.run(find))
-    window.run("settle(500)")
-    window.screenshot("4-progress")
-    window.click(window.run("result = middle_of(box.findChild(QtGui.QPushButton))"))
-    window.wait(lambda: not window.run("result = doc.HasPendingTransaction"))
+    press_cancel(window, picture="4-progress")
     window.run("properties.PROPERTIES = coarse")
     assert window.run("result = [obj.Name for obj in doc.Objects]") == ["Block"]
 
@@ -149,7 +166,7 @@ def test_an_operation_without_a_path_wears_a_warning_and_recovers(window: FreeCA
 def edit_page(window: FreeCADWindow) -> None:
     window.run(
         "from freecad_mpm.gui.edit_page import EditPage\n"
-        "Gui.ActiveDocument.setEdit(op)\nsettle(500)\n"
+        "Gui.ActiveDocument.setEdit(op)\n"
         "page = next(p for p in op.ViewObject.Proxy.panel.featurePages if isinstance(p, EditPage))"
     )
 
@@ -158,14 +175,9 @@ def test_a_value_typed_into_the_page_recomputes(window: FreeCADWindow, part: Non
     before = window.run(COARSE + "result = op.Report")
     edit_page(window)
     window.screenshot("5-edit")
-    window.run(
-        "field = next(f for f in page._fields if f.name == 'ForwardStep')\n"
-        "field.widget.setFocus()\nfield.widget.selectAll()"
-    )
-    window.type("0.5 in")
-    window.run("settle(300)")
-    window.click(window.run("result = panel_button(QtGui.QDialogButtonBox.Ok)"))
-    window.wait(lambda: not window.run("result = Gui.Control.activeDialog()"))
+    window.run("field = next(f for f in page._fields if f.name == 'ForwardStep')\n")
+    window.type("field.widget", "0.5 in")
+    press_in_panel(window, "Ok")
     assert window.run("result = op.ForwardStep.Value") == 12.7
     # Not the number of positions: with longer steps more are put in between.
     assert "8 mm forward" in before and "12.7 mm forward" in window.run("result = op.Report")
@@ -174,8 +186,7 @@ def test_a_value_typed_into_the_page_recomputes(window: FreeCADWindow, part: Non
 def test_cancel_in_the_page_changes_nothing(window: FreeCADWindow, part: None) -> None:
     window.run(COARSE + "doc.commitTransaction()")
     edit_page(window)
-    window.click(window.run("result = panel_button(QtGui.QDialogButtonBox.Cancel)"))
-    window.wait(lambda: not window.run("result = Gui.Control.activeDialog()"))
+    press_in_panel(window, "Cancel")
     assert window.run("result = [doc.getObject('MultiPointFinish') is op, op.ForwardStep.Value]") == [
         True,
         8.0,
@@ -200,8 +211,13 @@ def test_write_program_command_asks_for_a_file_and_writes(
     target = tmp_path / "program.I"
     window.run(COARSE + answer_file_dialog(target))
     press(window, "MPM_WriteProgram")
-    window.wait(target.exists)
+    window.wait_for(lambda: written(target), "the program")
     assert target.read_text().startswith("%")
+
+
+def written(file: Path) -> bool:
+    """Whether the file is there with its last line."""
+    return file.exists() and file.read_bytes().endswith(b"\n")
 
 
 def answer_file_dialog(target: Path) -> str:
@@ -219,11 +235,10 @@ def test_freecads_post_process_command_writes_the_same(
         "job = doc.getObject('Job')\n"
         f"job.PostProcessorOutputFile = {str(stock)!r}\n"
         "Gui.activateWorkbench('PathWorkbench' if compat.FLAT_MODULES else 'CAMWorkbench')\n"
-        "settle(500)\n"
         "Gui.Selection.clearSelection()\nGui.Selection.addSelection(job)\n"
         "result = 'Path_Post' if compat.FLAT_MODULES else 'CAM_Post'"
     )
     window.send(f"Gui.runCommand({command!r}, 0)")
-    window.wait(stock.exists)
+    window.wait_for(lambda: written(stock), "FreeCAD's Post Process to write the program")
     window.run("Gui.activateWorkbench('MultiPointMachiningWorkbench')")
     assert stock.read_bytes() == ours.read_bytes()

@@ -6,15 +6,11 @@ from collections.abc import Iterator
 
 import pytest
 from freecad_window import FreeCADWindow
-from test_pick_and_finish import COARSE, dialog_text, press
+from test_pick_and_finish import COARSE, TOP_MIDDLE, dialog_text, press, press_cancel, press_in_panel
 from test_playback import NODES
 
-PANEL = """
-import gc
-from freecad_mpm.gui import verification_panel
-panel = next(o for o in gc.get_objects() if isinstance(o, verification_panel.VerificationPanel) and o._watch.active)
-form, result_object = panel.form, panel.result
-"""
+# Once `panel` is the wanted one.
+PANEL = "form, result_object = panel.form, panel.result"
 # Pixels of the view in the hue of a band's colour, whatever the light does to its brightness.
 HUES = """
 import colorsys
@@ -37,10 +33,10 @@ ROUGH = "from freecad_mpm.core import cutting\ncutting.DEXELS_ALONG = 80\n"
 
 @pytest.fixture
 def panel(window: FreeCADWindow, part: None) -> Iterator[None]:
-    window.run(COARSE + ROUGH + "unfold(op)\nsettle(300)")
+    window.run(COARSE + ROUGH + "unfold(op)")
     press(window, "MPM_Verify")
-    window.wait(lambda: window.run("result = Gui.Control.activeDialog()"))
-    window.run("settle(300)\n" + PANEL)
+    window.wait_for("panel is not None", "the panel of the verification")
+    window.run(PANEL)
     yield
     window.run("Gui.Control.closeDialog()\npanel.close()")
 
@@ -56,17 +52,16 @@ def test_the_result_comes_and_goes_in_one_step_and_the_view_with_it(
         False,
     ]
     before = window.run(nodes)
-    window.click(window.run("result = middle_of(form.remainder)"))
-    assert window.run("settle(200)\n" + nodes) > before
-    window.click(window.run("result = panel_button(QtGui.QDialogButtonBox.Close)"))
-    window.wait(lambda: not window.run("result = Gui.Control.activeDialog()"))
+    window.click("middle_of(form.remainder)")
+    assert window.run(nodes) > before
+    press_in_panel(window, "Close")
     assert window.run(nodes) == before
-    assert window.run("doc.undo()\nsettle(200)\n" + names) == []
-    assert sorted(window.run("doc.redo()\nsettle(200)\n" + names)) == ["MachinedStock", "Verification"]
+    assert window.run("doc.undo()\n" + names) == []
+    assert sorted(window.run("doc.redo()\n" + names)) == ["MachinedStock", "Verification"]
 
 
 def test_colours_and_legend_are_seen_and_hidden(window: FreeCADWindow, panel: None) -> None:
-    window.run(HUES + "op.ViewObject.Visibility = False\nview.viewTop()\nview.fitAll()\nsettle(500)")
+    window.run(HUES + "op.ViewObject.Visibility = False\nview.viewTop()\nview.fitAll()")
     window.screenshot("8-verification")
     share = (
         "from freecad_mpm.core import deviation_bands\n"
@@ -76,14 +71,13 @@ def test_colours_and_legend_are_seen_and_hidden(window: FreeCADWindow, panel: No
     shown = window.run(share)
     assert min(shown) > 0.0002  # the legend has each of them
     assert sum(shown) > 0.15  # and the face most
-    assert max(window.run("result_object.ViewObject.Visibility = False\nsettle(300)\n" + share)) < 0.0002
+    assert max(window.run("result_object.ViewObject.Visibility = False\n" + share)) < 0.0002
 
 
 def test_a_click_on_a_spot_tells_the_position_that_cut_it(window: FreeCADWindow, panel: None) -> None:
-    window.run("op.ViewObject.Visibility = False\nview.fitAll()\nsettle(500)")
+    window.run("op.ViewObject.Visibility = False\nview.fitAll()")
     window.run("from freecad_mpm.document import verification")
-    window.click(window.run("result = on_screen(middle_of_face(block, top))"))
-    window.run("settle(300)")
+    window.click(TOP_MIDDLE)
     words = window.run("result = form.spot_words()")
     position = window.run("result = verification.position_at(op, panel.move)")
     assert position >= 0 and words["Cut last by"].endswith(
@@ -98,19 +92,18 @@ def test_a_click_on_a_spot_tells_the_position_that_cut_it(window: FreeCADWindow,
         "result = float(np.linalg.norm(np.array(m[3][:3]) - spot))"
     )
     assert distance < 2 * 12.7
-    window.click(window.run("result = middle_of(form.play)"))
-    window.run("settle(1000)\nfrom freecad_mpm.gui import playback_panel")
-    shown = window.run(
-        "player = next(o for o in gc.get_objects() if isinstance(o, playback_panel.PlaybackPanel) and o._watch.active)\n"
-        "result = player.played.playback.position_before(player.place)\nplayer.reject()"
+    window.click("middle_of(form.play)")
+    window.wait_for(
+        "isinstance(panel, playback_panel.PlaybackPanel) and panel.place > 0", "playback from there"
     )
+    shown = window.run("result = panel.played.playback.position_before(panel.place)\npanel.reject()")
     assert shown == position
 
 
 def test_the_worst_places_are_shown(window: FreeCADWindow, panel: None) -> None:
     for button, name in (("gouge", "WorstGouge"), ("remainder", "WorstRemainder")):
-        window.click(window.run(f"result = middle_of(form.{button})"))
-        words = window.run("settle(200)\nresult = form.spot_words()")
+        window.click(f"middle_of(form.{button})")
+        words = window.run("result = form.spot_words()")
         assert words["Deviation"] == window.run(f"result = form.{button}.text()")
         point = [float(value) for value in words["Point"].split(", ")]
         assert point == pytest.approx(window.run(f"result = list(result_object.{name}Point)"), abs=2e-3)
@@ -120,17 +113,15 @@ def test_a_double_click_opens_the_panel_again_and_says_when_the_path_is_another(
     window: FreeCADWindow, panel: None
 ) -> None:
     assert window.run("result = form._history.isVisible()") is False
-    window.run("op.ForwardStep = 16\ndoc.recompute()\nsettle(200)")
+    window.run("op.ForwardStep = 16\ndoc.recompute()")
     assert window.run("result = form._history.isVisible()") is True
-    window.run("panel.reject()\nsettle(200)")
+    window.run("panel.reject()")
     icon = "result = os.path.basename(result_object.ViewObject.Proxy.getIcon())"
     assert window.run(icon) == "problem.svg"
-    window.run(
-        "result_object.ViewObject.Proxy.doubleClicked(result_object.ViewObject)\nsettle(300)\n" + PANEL
-    )
+    window.run("result_object.ViewObject.Proxy.doubleClicked(result_object.ViewObject)\n" + PANEL)
     told = "result = form._history.isVisible()"
     assert window.run(told) is True
-    window.click(window.run("result = middle_of(form.remainder)"))
+    window.click("middle_of(form.remainder)")
     assert window.run("result = form.spot_words()['Cut last by']").endswith("as it was")
 
 
@@ -142,24 +133,18 @@ def test_without_a_path_the_user_is_told(window: FreeCADWindow, part: None) -> N
 
 
 def test_verify_again_with_another_resolution(window: FreeCADWindow, panel: None) -> None:
-    before = window.run("result = len(panel._found.points)")
-    window.run("form.resolution.setFocus()\nform.resolution.selectAll()")
-    window.type("3 mm")
-    window.click(window.run("result = middle_of(form.again)"))
-    window.wait(
-        lambda: window.run("result = result_object.Resolution.Value == 3 and Gui.Control.activeDialog()")
-    )
-    window.run("settle(300)\n" + PANEL)
+    before = window.run("first = panel\nresult = len(panel._found.points)")
+    window.type("form.resolution", "3 mm")
+    window.click("middle_of(form.again)")
+    window.wait_for("panel is not first", "the panel of the new result")
+    assert window.run(PANEL + "\nresult = result_object.Resolution.Value") == 3
     assert window.run("result = len(panel._found.points)") == pytest.approx(before / 4, rel=0.2)
 
 
 def test_cancel_in_the_progress_dialog_leaves_nothing(window: FreeCADWindow, part: None) -> None:
-    window.run(COARSE + ROUGH + "cutting.DEXELS_ALONG = 1500\nunfold(op)\nsettle(300)")
+    window.run(COARSE + ROUGH + "cutting.DEXELS_ALONG = 1500\nunfold(op)")
     press(window, "MPM_Verify")
-    find = "box = window.findChild(QtGui.QProgressDialog)\nresult = box is not None and box.isVisible()"
-    window.wait(lambda: window.run(find))
-    window.click(window.run("settle(300)\nresult = middle_of(box.findChild(QtGui.QPushButton))"))
-    window.wait(lambda: not window.run("result = doc.HasPendingTransaction"))
+    press_cancel(window)
     assert window.run("result = [doc.getObject('Verification'), doc.getObject('MachinedStock')]") == [
         None,
         None,
@@ -169,12 +154,12 @@ def test_cancel_in_the_progress_dialog_leaves_nothing(window: FreeCADWindow, par
 def test_a_reopened_document_shows_the_colours(window: FreeCADWindow, panel: None, tmp_path) -> None:
     before = window.run("result = result_object.ViewObject.Proxy.nodes.count")
     file = str(tmp_path / "part.FCStd")
-    window.run(f"panel.reject()\ndoc.saveAs({file!r})\nFreeCAD.closeDocument(doc.Name)\nsettle(200)")
-    window.run(f"doc = FreeCAD.openDocument({file!r})\nsettle(500)\nview = Gui.ActiveDocument.ActiveView")
+    window.run(f"panel.reject()\ndoc.saveAs({file!r})\nFreeCAD.closeDocument(doc.Name)")
+    window.run(f"doc = FreeCAD.openDocument({file!r})\nview = Gui.ActiveDocument.ActiveView")
     after = window.run("result = doc.getObject('Verification').ViewObject.Proxy.nodes.count")
     assert after == before > 1000
 
 
 def test_closing_the_document_ends_it(window: FreeCADWindow, panel: None) -> None:
-    window.run("FreeCAD.closeDocument(doc.Name)\nsettle(300)")
-    assert window.run("result = [panel._watch.active, Gui.Control.activeDialog()]") == [False, False]
+    window.run("FreeCAD.closeDocument(doc.Name)")
+    window.wait_for("not panel._watch.active and not Gui.Control.activeDialog()", "the panel to close")

@@ -3,6 +3,7 @@
 
 #include <cstring>
 
+#include "mpm/base/frame.h"
 #include "mpm/positioning/place_all.h"
 #include "mpm/positioning/registry.h"
 #include "thesis.h"
@@ -85,6 +86,36 @@ TEST(Pam, LeansWithAPlaneUntilTheRingLiesFlat) {
   const SurfaceModel model = testing::inclined_plane(0.2);
   const Placement p = place("pam", model, {Vec2(50, 50)}).positions[0];
   EXPECT_NEAR(p.tilt, std::atan(0.2), 1e-6);
+}
+
+// 100 mm square about `middle`, rising by `slope`, bent by `curvature` (1/mm), then turned about z.
+SurfaceModel nearly_plane(double slope, double curvature, double turn, const Vec3& middle) {
+  const std::vector<double> knots{0, 0, 0, 1, 1, 1}, side{-50, 0, 50}, square{2500, -2500, 2500};
+  std::vector<Vec3> poles;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      const double height = slope * side[i] + curvature / 2 * (square[i] + square[j]);
+      poles.push_back(middle + rotation(Vec3::UnitZ(), turn) * Vec3(side[i], side[j], height));
+    }
+  return testing::one_face(BSplineSurface(2, 2, knots, knots, poles));
+}
+
+// However it lies, and a metre off the origin, where more is rounded.
+TEST(Pam, MatchesAPlane) {
+  for (const double slope : {0.0, 0.2})
+    for (const double turn_deg : {0.0, 37.0, 101.0, 210.0, 333.0})
+      for (const Vec3& middle : {Vec3(0, 0, 0), Vec3(1e3, -1e3, 1e3)}) {
+        const SurfaceModel model = nearly_plane(slope, 0, radians(turn_deg), middle);
+        EXPECT_EQ(place("pam", model, {middle.head<2>()}).positions[0].status,
+                  PositionStatus::curvature_matched)
+            << slope << " turned by " << turn_deg << " at " << middle.x();
+      }
+}
+
+// A ball of 1 km is no plane yet: it falls away by 1.25 micrometres over 50 mm.
+TEST(Pam, NothingMatchesABallHoweverLarge) {
+  const SurfaceModel model = nearly_plane(0.2, -1e-6, 0, Vec3::Zero());
+  EXPECT_EQ(place("pam", model, {Vec2(30, 20)}).positions[0].status, PositionStatus::one_contact);
 }
 
 TEST(Dtm, AnalyticAndExtrapolatedDerivativesAgree) {

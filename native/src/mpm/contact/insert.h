@@ -8,9 +8,6 @@
 
 namespace mpm {
 
-// mm: a contact nearer to the tool axis has no insert.
-inline constexpr double kOnAxis = 1e-6;
-
 // The insert frame: origin O1 on the major circle, w1 = tool axis before the tilt, v1 from O1 to the torus
 // centre, u1 = v1 x w1, the axis of the tilt. The minor circle through the first contact lies in the plane of
 // v1 and w1.

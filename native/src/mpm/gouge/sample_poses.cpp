@@ -6,7 +6,7 @@
 namespace mpm {
 namespace {
 
-constexpr std::size_t kGrain = 16;  // poses a task
+constexpr std::size_t kPosesATask = 16;  // poses a task
 
 }  // namespace
 
@@ -17,7 +17,7 @@ std::vector<double> sample_poses(const SurfaceModel& model,
   const ClearanceSampler sampler(model, tool);
   std::vector<double> found(poses.size(), kInfinity);
   context.start(poses.size());
-  for_each_range(poses.size(), kGrain, context, [&](std::size_t begin, std::size_t end) {
+  for_each_range(poses.size(), kPosesATask, context, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end && !context.cancelled(); ++i)
       if (poses[i].torus_center.allFinite() && poses[i].axis.allFinite())
         found[i] = sampler(poses[i], tool.radius()).distance;

@@ -13,6 +13,10 @@ namespace {
 constexpr int kSeeds = 50;  // starts of the drop
 // mm, well below any tolerance: exact derivatives reach it in a step or two more.
 constexpr double kNewtonTolerance = 1e-9;
+// Curvature times tool radius; what bends by less is flat. The rounding of second derivatives, about 1e-12 on
+// parts of a metre, must not decide by its sign; over a tool it is 1e-8 mm.
+constexpr double kFlat = 1e-9;
+constexpr double kNoTilt = 1e-9;  // rad: an upright tool nearer than this to the match has it
 
 NewtonRules exact_rules() {
   NewtonRules rules;
@@ -54,8 +58,8 @@ class Pam final : public Method {
 };
 
 // The tilt at which the ring's curvature at the contact, cos(theta)/(Ro + Ri cos(theta)) with cos(theta) = n
-// . v1 after the tilt, is `curvature`. Where the surface bends away the flattest part of the ring, theta = 90
-// degrees, is the closest match. Negative: even the upright tool is less curved than the surface.
+// . v1 after the tilt, is `curvature`. Where the surface is flat that is theta = 90 degrees, and where it
+// bends away nothing comes closer. Negative: even the upright tool is less curved than the surface.
 double Pam::matching_tilt(const Insert& insert, const Vec3& n, double curvature) const {
   const double free = 1 - curvature * tool_.minor_radius;
   const double cosine = curvature <= 0 ? 0.0 : free > 0 ? curvature * tool_.major_radius / free : kInfinity;
@@ -68,6 +72,7 @@ void Pam::incline(const TangentPoint& p,
                   Counters& counters) const {
   const double curvature = largest_curvature(model_.faces()[p.face].surface.evaluate(p.u, p.v), p.n);
   ++counters.evaluations;
+  const double flat = kFlat / tool_.radius();
   const double wanted = matching_tilt(insert, p.n, curvature);
   const std::vector<Seed> faces = seeds_under_tool(locator_, tool_, placement.pose.torus_center.head<2>());
   double tilt = std::clamp(wanted, 0.0, tilt_max_);
@@ -78,8 +83,8 @@ void Pam::incline(const TangentPoint& p,
   placement.pose = tilted(tool_, insert, tilt);
   placement.status = tilt < first         ? PositionStatus::one_contact
                      : wanted > tilt_max_ ? PositionStatus::tilt_limited
-                     : wanted < 0         ? PositionStatus::bridged
-                     : curvature <= 0     ? PositionStatus::one_contact
+                     : wanted < -kNoTilt  ? PositionStatus::bridged
+                     : curvature < -flat  ? PositionStatus::one_contact
                                           : PositionStatus::curvature_matched;
 }
 
