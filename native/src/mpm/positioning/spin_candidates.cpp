@@ -7,7 +7,7 @@ namespace mpm {
 namespace {
 
 // A spacing is found to a tenth of what counts as reached.
-constexpr double kSharpness = 0.1 * kSpacingTolerance;
+constexpr double kMissSharpness = 0.1 * kSpacingTolerance;
 constexpr int kRootSteps =
     16;  // of false position; a jump, where the contact changes sides, is given up then
 constexpr int kBestSteps = 10;  // of golden sections: the circle's 10 degrees come down to 0.1
@@ -65,7 +65,7 @@ void Search::between(const Sample& a, const Sample& b, std::vector<Sample>& foun
   for (int step = 0; step < kRootSteps; ++step) {
     const Sample next = at((x0 * y1 - x1 * y0) / (y1 - y0));
     if (!next.known()) return;
-    if (next.candidate.miss <= kSharpness) {
+    if (next.candidate.miss <= kMissSharpness) {
       found.push_back(next);
       return;
     }
