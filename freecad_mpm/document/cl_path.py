@@ -13,6 +13,8 @@ from typing import Any
 import numpy as np
 import Path
 
+from ..core.base import Floats, Integers
+
 HEADING = re.compile(r"\((\w+), pass (-?\d+)\)")
 RAPID = "rapid"
 SECONDS_PER_MINUTE = 60.0
@@ -27,10 +29,10 @@ class Moves:
     """M moves in machining order, part frame, mm."""
 
     kind: list[str]  # cut, link, rapid, plunge or retract
-    pass_index: np.ndarray  # (M,)
-    tip: np.ndarray  # (M, 3)
-    axis: np.ndarray  # (M, 3), unit, from the tip to the spindle
-    feed_mm_per_min: np.ndarray  # (M,); 0 for rapids
+    pass_index: Integers  # (M,)
+    tip: Floats  # (M, 3)
+    axis: Floats  # (M, 3), unit, from the tip to the spindle
+    feed_mm_per_min: Floats  # (M,); 0 for rapids
 
     def __len__(self) -> int:
         return len(self.kind)

@@ -8,7 +8,6 @@ from __future__ import annotations
 import importlib
 from collections.abc import Iterator
 from contextlib import contextmanager
-from types import ModuleType
 from typing import Any
 
 import FreeCAD
@@ -30,9 +29,12 @@ _MODULES = {
     "preferences": ("Path.Preferences", "PathScripts.PathPreferences"),
     "utils": ("PathScripts.PathUtils", "PathScripts.PathUtils"),
 }
+# The two that have base classes of ours, named for the type checker.
+op_base: Any
+op_gui: Any
 
 
-def __getattr__(name: str) -> ModuleType:
+def __getattr__(name: str) -> Any:
     if name not in _MODULES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     return importlib.import_module(_MODULES[name][FLAT_MODULES])
@@ -108,7 +110,7 @@ def _bull_nose_from_assets(doc: Any, label: str) -> Any:
     from Path.Tool.toolbit import ToolBit
 
     attributes = {"version": 2, "name": label, "shape": "bullnose.fcstd", "shape-type": "Bullnose"}
-    return ToolBit.from_dict({**attributes, "parameter": {}, "attribute": {}}).attach_to_doc(doc=doc)
+    return ToolBit.from_dict(dict(attributes, parameter={}, attribute={})).attach_to_doc(doc=doc)
 
 
 def _bull_nose_from_shape(label: str) -> Any:

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import Part
 
-from ..core.base import InputError
+from ..core.base import Floats, InputError
 from ..core.part import FaceArrays
 
 # Parameters of a piece of a trimming curve where its distance from the chord is looked at.
@@ -97,7 +97,7 @@ def _not_periodic(surface: Any) -> Any:
     return surface
 
 
-def _polygon(face: Any, wire: Any, surface: Any, chord_mm: float) -> np.ndarray:
+def _polygon(face: Any, wire: Any, surface: Any, chord_mm: float) -> Floats:
     """The closed polygon (N, 2) in (u, v) of one wire; its last point is not its first."""
     points: list[tuple[float, float]] = []
     for edge in wire.OrderedEdges:
@@ -124,7 +124,7 @@ def _chord_error(curve: Any, start: float, end: float, a: Any, b: Any, t: float,
     return surface.value(on_curve.x, on_curve.y).distanceToPoint(surface.value(on_chord.x, on_chord.y))
 
 
-def _is_whole(loops: list[np.ndarray], bounds: tuple[float, float, float, float]) -> bool:
+def _is_whole(loops: list[Floats], bounds: tuple[float, float, float, float]) -> bool:
     """Whether the only polygon is the rectangle of the surface's parameters."""
     if len(loops) != 1:
         return False

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..core.base import write_together
+from ..core.base import Floats, write_together
 from . import compat, program
 from .computation import require_native
 from .job_spec import job_of, tool_of
@@ -27,7 +27,7 @@ class Played:
 
     playback: Playback
     tool: ToolSpec
-    part_box: tuple[np.ndarray, np.ndarray]
+    part_box: tuple[Floats, Floats]
 
 
 def played(op: Any) -> Played:
@@ -76,7 +76,7 @@ def part_faces(op: Any) -> list[FaceArrays]:
     return sorted(part.faces, key=lambda face: face.name not in machined)
 
 
-def _model_box(op: Any) -> tuple[np.ndarray, np.ndarray]:
+def _model_box(op: Any) -> tuple[Floats, Floats]:
     from .faces import global_shape
 
     boxes = [global_shape(model).BoundBox for model in compat.utils.findParentJob(op).Model.Group]

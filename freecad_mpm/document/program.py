@@ -10,7 +10,7 @@ import FreeCAD
 import numpy as np
 
 from ..core import posts
-from ..core.base import InputError, Stages, write_atomically
+from ..core.base import Floats, InputError, Names, Stages, write_atomically
 from ..core.job import Job
 from ..core.machine import feeds, move_machine
 from ..core.path import ToolPath
@@ -129,21 +129,21 @@ def path_of(ops: Sequence[Any]) -> ToolPath:
     return _path(ops)[0]
 
 
-def _path(ops: Sequence[Any]) -> tuple[ToolPath, np.ndarray]:
+def _path(ops: Sequence[Any]) -> tuple[ToolPath, Floats]:
     """The stored moves of our operations, in their order, as the core's path, and their feeds."""
     moves = [cl_path.from_commands(op.Path.Commands) for op in ops]
     joined = {name: np.concatenate([getattr(one, name) for one in moves]) for name in ("kind", "tip", "axis")}
-    feed_mm_per_min = np.concatenate([feeds(post_of(op), one.kind) for op, one in zip(ops, moves)])
+    feed_mm_per_min = np.concatenate([feeds(post_of(op), np.array(one.kind)) for op, one in zip(ops, moves)])
     return _as_path(**joined), feed_mm_per_min
 
 
-def _upright_path(op: Any) -> tuple[ToolPath, np.ndarray]:
+def _upright_path(op: Any) -> tuple[ToolPath, Floats]:
     """The moves of one of CAM's own operations, and their feeds."""
     moves = three_axis.moves_of(op.Label, op.Path.Commands)
     return _as_path(moves.kind, moves.tip, moves.axis), moves.feed_mm_per_min
 
 
-def _as_path(kind: np.ndarray, tip: np.ndarray, axis: np.ndarray) -> ToolPath:
+def _as_path(kind: Names, tip: Floats, axis: Floats) -> ToolPath:
     count = len(kind)
     return ToolPath(
         kind=kind,
@@ -157,7 +157,7 @@ def _as_path(kind: np.ndarray, tip: np.ndarray, axis: np.ndarray) -> ToolPath:
     )
 
 
-def _box(op: Any) -> tuple[np.ndarray, np.ndarray]:
+def _box(op: Any) -> tuple[Floats, Floats]:
     """Low and high corner of the job's stock."""
     box = compat.utils.findParentJob(op).Stock.Shape.BoundBox
     return np.array([box.XMin, box.YMin, box.ZMin]), np.array([box.XMax, box.YMax, box.ZMax])

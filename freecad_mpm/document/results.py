@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 from FreeCAD import Vector
 
+from ..core.base import Floats
+
 NO_STATUS = -1
 # Of the worst clearance in mm; documents keep no rounding errors.
 CLEARANCE_DECIMALS = 9
@@ -42,7 +44,7 @@ def clear(obj: Any) -> None:
         setattr(obj, name, [])
 
 
-def worst_clearance(clearance: np.ndarray) -> float:
+def worst_clearance(clearance: Floats) -> float:
     """The smallest upper bound of the positions' clearances, mm; 0 when no position has one."""
     known = clearance[:, 1][np.isfinite(clearance[:, 1])]
     return round(float(known.min()), CLEARANCE_DECIMALS) if len(known) else 0.0
@@ -54,5 +56,5 @@ def _move_status(plan: Any, names: list[str]) -> list[int]:
     return np.where(position < 0, NO_STATUS, code[np.maximum(position, 0)]).tolist()
 
 
-def _vectors(points: np.ndarray) -> list[Vector]:
+def _vectors(points: Floats) -> list[Vector]:
     return [Vector(*point) for point in points[np.isfinite(points).all(axis=1)].tolist()]

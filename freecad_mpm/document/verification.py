@@ -15,7 +15,7 @@ import FreeCAD
 import Mesh
 import numpy as np
 
-from ..core.base import blame, write_atomically
+from ..core.base import Floats, Integers, blame, write_atomically
 from . import compat, hooks, program
 from .computation import require_native
 from .job_spec import job_of
@@ -90,10 +90,10 @@ PROPERTIES = (
 class Deviation:
     """The deviation that a result holds; global frame, mm. Single precision, as it is for looking at."""
 
-    points: np.ndarray  # (N, 3), on the faces to machine; then those of the other faces that are cut, and round them
-    deviation_mm: np.ndarray  # (N,), along the normal: > 0 remains, < 0 is cut in; of other faces how deep in the tool
-    move: np.ndarray  # (N,), move of the path that cut there last, -1: none; of other faces the one that went deepest
-    triangles: np.ndarray  # (T, 3) of points
+    points: Floats  # (N, 3), on the faces to machine; then those of the other faces that are cut, and round them
+    deviation_mm: Floats  # (N,), along the normal: > 0 remains, < 0 is cut in; of other faces how deep in the tool
+    move: Integers  # (N,), move of the path that cut there last, -1: none; of other faces the one that went deepest
+    triangles: Integers  # (T, 3) of points
     measured: int  # points of the faces to machine
 
     def nearest(self, point: Any) -> int:

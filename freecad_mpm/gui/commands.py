@@ -122,7 +122,7 @@ class VerifyCommand:
             report(error)
 
 
-COMMANDS = (FinishCommand, PlaybackCommand, VerifyCommand, WriteProgramCommand)
+COMMANDS: tuple[Any, ...] = (FinishCommand, PlaybackCommand, VerifyCommand, WriteProgramCommand)
 
 
 def register() -> list[str]:

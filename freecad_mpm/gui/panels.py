@@ -68,7 +68,7 @@ class Watch:
     """Calls `recomputed` when the object `obj` is computed anew, and `gone` when it or its document goes away, until
     `end`. The names of the slots are FreeCAD's."""
 
-    def __init__(self, obj: Any, recomputed: Callable[[], None], gone: Callable[[], None]) -> None:
+    def __init__(self, obj: Any, recomputed: Callable[[], None], gone: Callable[[], object]) -> None:
         self._obj, self._document = obj, obj.Document
         self._recomputed, self._gone = recomputed, gone
         self.active = True

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from pivy import coin
 
+from ..core.base import Floats
 from ..core.playback import TOOL_COLOURS, Mesh
 from ..core.playback import bodies as machine_motion
 from ..core.playback import colour_of
@@ -42,7 +43,7 @@ class PlaybackNodes:
     def show_machine(self, shown: bool) -> None:
         self._machine.whichChild = coin.SO_SWITCH_ALL if shown else coin.SO_SWITCH_NONE
 
-    def place(self, bodies: Mapping[str, np.ndarray]) -> None:
+    def place(self, bodies: Mapping[str, Floats]) -> None:
         """Move everything; `bodies` as core.playback.Playback.placements gives them."""
         for name, node in self._matrices.items():
             node.matrix = _coin_matrix(bodies[name])
@@ -61,11 +62,11 @@ class Stage:
 
     def __init__(self, view: Any, op: Any, played: Played, nodes: PlaybackNodes) -> None:
         self._nodes = [nodes.root, nodes.part]
-        self._hidden = None
+        self._hidden: tuple[Any, int] | None = None
         if len(played.playback.blocks) > LONG_PATH:
             self._hide(op)
             self._nodes.append(_trail(played))
-        self._scene = _parent(view.getSceneGraph(), op.ViewObject.RootNode)
+        self._scene: Any = _parent(view.getSceneGraph(), op.ViewObject.RootNode)
         self._scene.ref()  # the view may go before us
         places = [self._scene.findChild(obj.ViewObject.RootNode) for obj in op.Document.Objects]
         first = min(place for place in places if place >= 0)
@@ -132,6 +133,6 @@ def _shape(mesh: Mesh, colour: tuple[float, float, float]) -> Any:
     return separator
 
 
-def _coin_matrix(matrix: np.ndarray) -> Any:
+def _coin_matrix(matrix: Floats) -> Any:
     """Coin multiplies row vectors from the left."""
     return coin.SbMatrix(*matrix.T.ravel().tolist())

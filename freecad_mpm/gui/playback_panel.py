@@ -120,13 +120,17 @@ class PlaybackPanel(panels.ClosingPanel):
         self.form.show_words(describe(playback, self._place))
         self.form.show_number(playback.position_before(self._place))
 
+    def _halt_at(self, place: float) -> None:
+        self.pause()
+        self.go_to(place)
+
     def _connect(self) -> None:
         form = self.form
-        form.first.clicked.connect(lambda: (self.pause(), self.go_to(0.0)))
+        form.first.clicked.connect(lambda: self._halt_at(0.0))
         form.back.clicked.connect(lambda: self.step(-1))
         form.run.clicked.connect(lambda: self.pause() if self._timer.isActive() else self.play())
         form.forth.clicked.connect(lambda: self.step(1))
-        form.last.clicked.connect(lambda: (self.pause(), self.go_to(self.played.playback.last)))
+        form.last.clicked.connect(lambda: self._halt_at(self.played.playback.last))
         form.slider.valueChanged.connect(self.go_to_position)
         form.number.valueChanged.connect(lambda value: self.go_to_position(value - 1))
         form.view.currentIndexChanged.connect(lambda _: self.go_to(self._place))

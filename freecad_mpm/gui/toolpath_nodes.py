@@ -50,8 +50,8 @@ class ToolpathNodes:
         self.root = coin.SoSeparator()
         self.root.addChild(unpickable())
         self.root.addChild(unlit())
-        for part in (self.links, self.axes, self.cuts, self.first, self.second):
-            self.root.addChild(part.root)
+        for root in (self.links.root, self.axes.root, self.cuts.root, self.first.root, self.second.root):
+            self.root.addChild(root)
 
     def show(self, moves: Any, statuses: Sequence[str], first: Sequence[Any], second: Sequence[Any]) -> None:
         """Draw `moves` (cl_path.Moves), the status of each ("" for none), and the contact points."""
@@ -112,9 +112,9 @@ def _strips(moves: Any, colors: list[Color], cuts: bool) -> tuple[list[Any], lis
     shown: list[Color] = []
     lengths: list[int] = []
     tips = moves.tip.tolist()
-    for is_cut, run in groupby(range(1, len(moves)), key=lambda move: moves.kind[move] == CUT):
+    for is_cut, alike in groupby(range(1, len(moves)), key=lambda move: moves.kind[move] == CUT):
         if is_cut == cuts:
-            run = list(run)
+            run = list(alike)
             points += tips[run[0] - 1 : run[-1] + 1]
             shown += [colors[run[0]], *(colors[move] for move in run)]
             lengths.append(len(run) + 1)

@@ -98,8 +98,8 @@ class VerificationPanel(panels.ClosingPanel):
     def _clicked(self, event: dict[str, Any]) -> None:
         if event["Button"] != "BUTTON1" or event["State"] != "DOWN":
             return
-        line = self._view.projectPointToLine(*event["Position"])
-        row = self._found.first_on_line(*line, PICK_REACH * self.result.Resolution.Value)
+        start, end = self._view.projectPointToLine(*event["Position"])
+        row = self._found.first_on_line(start, end, PICK_REACH * self.result.Resolution.Value)
         if row is not None:
             self.show_spot(self._found.points[row])
 

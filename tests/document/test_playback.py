@@ -39,7 +39,7 @@ def test_a_reopened_document_plays_without_computing(
     FreeCAD.closeDocument(doc.Name)
     monkeypatch.setattr(computation, "compute", lambda *_: pytest.fail("computed again"))
     after = playback.played(FreeCAD.openDocument(file).getObject(name)).playback
-    assert (after.blocks.angles_deg == before.blocks.angles_deg).all()
+    assert (after.blocks.rotary_deg == before.blocks.rotary_deg).all()
     assert (after.visited.clearance_mm == before.visited.clearance_mm).all()
     assert after.seconds[-1] == before.seconds[-1]
 

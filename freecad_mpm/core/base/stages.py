@@ -6,11 +6,15 @@ import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor, wait
 from contextlib import contextmanager
-from typing import Any, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, ParamSpec, Protocol, TypeVar
 
 from .errors import Cancelled
 
+if TYPE_CHECKING:
+    from ... import _core
+
 T = TypeVar("T")
+P = ParamSpec("P")
 
 # How often a running stage is looked at: half of the 0.1 s within which a cancel must stop it.
 POLL_S = 0.05
@@ -41,7 +45,7 @@ class Stages:
         self._is_cancelled = _as_function(cancel)
         self._threads = threads
 
-    def run(self, stage: str, function: Callable[..., T], *arguments: Any, **named: Any) -> T:
+    def run(self, stage: str, function: Callable[P, T], *arguments: P.args, **named: P.kwargs) -> T:
         """A short call, in this thread: it is not interrupted."""
         with self._timed(stage):
             return function(*arguments, **named)
@@ -72,7 +76,7 @@ class Stages:
         self._on_progress(stage, 1.0)
         self._check()
 
-    def _look_up(self, stage: str, context: Any) -> None:
+    def _look_up(self, stage: str, context: _core.Context) -> None:
         if context.total:
             self._on_progress(stage, min(context.done / context.total, 1.0))
         self._check()

@@ -18,9 +18,9 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from .. import job, planning, removal
-from ..base import EXAMPLES, Floats, Progress, Stages
+from ..base import EXAMPLES, Flags, Floats, Progress, Stages
 from ..job import Job
-from ..part import FaceArrays, prepare
+from ..part import FaceArrays, Scene, prepare
 from ..pictures import png_bytes
 from ..removal import Section
 
@@ -77,7 +77,7 @@ class Measured:
     case: Case
     section: Section
     vertical_mm: Floats
-    interior: Any  # (N,) flags: between the passes on which the whole cutter stands over the face
+    interior: Flags  # (N,) flags: between the passes on which the whole cutter stands over the face
 
     @property
     def row(self) -> dict[str, Any]:
@@ -159,13 +159,13 @@ def _bernstein(t: float) -> list[float]:
     return [(1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t * t * (1 - t), t**3]
 
 
-def _interior(spec: Job, scene: Any, section: Section) -> Any:
+def _interior(spec: Job, scene: Scene, section: Section) -> Flags:
     """Between the first and the last pass whose distance from the border is at least the cutter's radius."""
     low, high = (float(corner[0]) for corner in scene.model.machined_bounds())
     passes = np.arange(low, high, spec.footprint.side_step_mm)
     radius = scene.tool.radius
     inside = passes[(passes >= low + radius) & (passes <= high - radius)]
-    return (section.s_mm >= inside[0]) & (section.s_mm <= inside[-1])
+    return np.asarray((section.s_mm >= inside[0]) & (section.s_mm <= inside[-1]))
 
 
 HEADS = ("surface", "case", "thesis", "interior passes", "all passes", "vertical, interior")

@@ -11,41 +11,41 @@ from ..machine import Machine, RotaryAxis
 SMALL_SINE = 1e-8
 
 
-def tool_axes(machine: Machine, angles_deg: Floats) -> Floats:
+def tool_axes(machine: Machine, rotary_deg: Floats) -> Floats:
     """Unit tool axes (N, 3) in the part's frame at rotary readings (N, 2)."""
-    axes = np.tile(_unit(machine.kinematics.spindle_axis), (len(angles_deg), 1))
+    axes = np.tile(_unit(machine.kinematics.spindle_axis), (len(rotary_deg), 1))
     for k in (1, 0):
-        axes = _turned(machine.rotary_axes[k], angles_deg[:, k], axes)
+        axes = _turned(machine.rotary_axes[k], rotary_deg[:, k], axes)
     return axes
 
 
 def linear_readings(
-    machine: Machine, tip: Floats, angles_deg: Floats, part_origin_mm: Floats, tool_length_mm: float
+    machine: Machine, tip: Floats, rotary_deg: Floats, part_origin_mm: Floats, tool_length_mm: float
 ) -> Floats:
     """X, Y, Z (N, 3) of the spindle gauge point for tips (N, 3) at rotary readings (N, 2)."""
     at_tool = np.tile(-tool_length_mm * _unit(machine.kinematics.spindle_axis), (len(tip), 1))
     on_table = np.asarray(tip) + part_origin_mm
     for k in (1, 0):
         if machine.rotary_axes[k].role == "head_rotary":
-            at_tool = _turned_about_line(machine.rotary_axes[k], angles_deg[:, k], at_tool)
+            at_tool = _turned_about_line(machine.rotary_axes[k], rotary_deg[:, k], at_tool)
     for k in (0, 1):
         if machine.rotary_axes[k].role == "table_rotary":
-            on_table = _turned_about_line(machine.rotary_axes[k], angles_deg[:, k], on_table, back=True)
+            on_table = _turned_about_line(machine.rotary_axes[k], rotary_deg[:, k], on_table, back=True)
     return np.asarray(on_table - at_tool)
 
 
 def tips(
-    machine: Machine, linear: Floats, angles_deg: Floats, part_origin_mm: Floats, tool_length_mm: float
+    machine: Machine, linear: Floats, rotary_deg: Floats, part_origin_mm: Floats, tool_length_mm: float
 ) -> Floats:
     """Tips (N, 3) in the part's frame at readings of the linear (N, 3) and rotary (N, 2) axes."""
     at_tool = np.tile(-tool_length_mm * _unit(machine.kinematics.spindle_axis), (len(linear), 1))
     for k in (1, 0):
         if machine.rotary_axes[k].role == "head_rotary":
-            at_tool = _turned_about_line(machine.rotary_axes[k], angles_deg[:, k], at_tool)
+            at_tool = _turned_about_line(machine.rotary_axes[k], rotary_deg[:, k], at_tool)
     in_part = np.asarray(linear) + at_tool
     for k in (1, 0):
         if machine.rotary_axes[k].role == "table_rotary":
-            in_part = _turned_about_line(machine.rotary_axes[k], angles_deg[:, k], in_part)
+            in_part = _turned_about_line(machine.rotary_axes[k], rotary_deg[:, k], in_part)
     return np.asarray(in_part - part_origin_mm)
 
 
@@ -54,12 +54,12 @@ def datum_mm(machine: Machine, part_origin_mm: Floats, tool_length_mm: float) ->
     return np.asarray(part_origin_mm + tool_length_mm * _unit(machine.kinematics.spindle_axis))
 
 
-def solution_side(machine: Machine, angles_deg: Floats) -> Floats:
+def solution_side(machine: Machine, rotary_deg: Floats) -> Floats:
     """A number (N,) whose sign tells the two rotary solutions apart; 0 where they meet (pole and end of reach)."""
     first, second = (_unit(axis.rotation_vector) for axis in machine.rotary_axes)
-    seconds = np.tile(second, (len(angles_deg), 1))
-    carried = _turned(machine.rotary_axes[0], angles_deg[:, 0], seconds)
-    return np.asarray(np.einsum("ij,ij->i", tool_axes(machine, angles_deg), np.cross(first, carried)))
+    seconds = np.tile(second, (len(rotary_deg), 1))
+    carried = _turned(machine.rotary_axes[0], rotary_deg[:, 0], seconds)
+    return np.asarray(np.einsum("ij,ij->i", tool_axes(machine, rotary_deg), np.cross(first, carried)))
 
 
 def pole_distance_deg(machine: Machine, axes: Floats) -> Floats:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
-from typing import Any
 
 import numpy as np
 
@@ -98,8 +97,6 @@ def joint_path(
     *,
     axis_tolerance_deg: float,
     tip_tolerance_mm: float | None = None,
-    part_origin_mm: tuple[float, float, float] | None = None,
-    tool_length_mm: float | None = None,
 ) -> JointPath:
     """Joint values for a path of M moves (kind (M,), tip (M, 3) and axis (M, 3) in the set-up frame).
 
@@ -108,13 +105,7 @@ def joint_path(
     higher end of the rapid with its tip held, where the path must be clear of the part; only there may the rotary
     solution change. All given poses are kept, in order. Limits that cannot be kept are statuses, not errors.
 
-    part_origin_mm (of the set-up in the machine frame) and tool_length_mm: None takes the machine file's.
     Raises ValueError naming the argument."""
-    setup = machine.setup
-    place = {
-        "part_origin_mm": setup.part_origin_mm if part_origin_mm is None else part_origin_mm,
-        "tool_length_mm": setup.tool_length_mm if tool_length_mm is None else tool_length_mm,
-    }
     tcp = tip_tolerance_mm is None
     rows = _with_rapids_in_two(kind, tip, axis) if tcp else _as_given(kind, tip, axis)
     joints = _core.refine_path(
@@ -122,7 +113,7 @@ def joint_path(
         rows.tip,
         rows.axis,
         rows.held,
-        **place,
+        setup=machine.setup.native(),
         tip_tolerance_mm=np.inf if tip_tolerance_mm is None else tip_tolerance_mm,
         pole_cone_deg=machine.kinematics.pole_cone_deg,
         axis_tolerance_deg=axis_tolerance_deg,
@@ -137,19 +128,17 @@ def joint_path(
         kind=kind[source],
         tip=joints["tip"][keep],
         axis=joints["axis"][keep],
-        angles_deg=joints["rotary_deg"][keep],
+        rotary_deg=joints["rotary_deg"][keep],
         feed_mm_per_min=feed_mm_per_min[source],
         linear_mm=joints["linear_mm"][keep],
         source=source,
         status=status,
         at_pole=joints["at_pole"][keep],
     )
-    return path if tcp else _with_turns_at_the_top(machine, path, joints["keeps"][keep], place)
+    return path if tcp else _with_turns_at_the_top(machine, path, joints["keeps"][keep])
 
 
-def _with_turns_at_the_top(
-    machine: Machine, path: JointPath, keeps: Flags, place: dict[str, Any]
-) -> JointPath:
+def _with_turns_at_the_top(machine: Machine, path: JointPath, keeps: Flags) -> JointPath:
     """Before each rapid whose joints would swing the tip off its way: up along Z, the turn, and across, so that the
     rapid itself only goes down."""
     turns = np.flatnonzero(~keeps & (path.kind == "rapid"))
@@ -159,13 +148,13 @@ def _with_turns_at_the_top(
     z = path.linear_mm[:, 2].max() + ABOVE_ALL_MM if np.isinf(limit) else limit - BELOW_END_MM
     before = np.repeat(turns - 1, 3)
     before[2::3] = before[1::3] = turns
-    linear, angles = path.linear_mm[before], path.angles_deg[before]
+    linear, angles = path.linear_mm[before], path.rotary_deg[before]
     linear[1::3] = path.linear_mm[turns - 1]
     linear[:, 2] = np.maximum(z, linear[:, 2])
-    angles[0::3] = path.angles_deg[turns - 1]
-    tip, axis = machine.chain().forward(linear, angles, **place)
+    angles[0::3] = path.rotary_deg[turns - 1]
+    tip, axis = machine.chain().forward(linear, angles, setup=machine.setup.native())
     given = np.repeat(turns, 3)
-    inserted = {"tip": tip, "axis": axis, "linear_mm": linear, "angles_deg": angles}
+    inserted = {"tip": tip, "axis": axis, "linear_mm": linear, "rotary_deg": angles}
     columns = {
         one.name: np.insert(
             getattr(path, one.name), given, inserted.get(one.name, getattr(path, one.name)[given]), axis=0
@@ -202,9 +191,9 @@ def _with_rapids_in_two(kind: Names, tip: Floats, axis: Floats) -> _Rows:
     )
 
 
-def _redundant(angles_deg: Floats, tip: Floats, turns_first: Flags, travels_first: Flags) -> Flags:
+def _redundant(rotary_deg: Floats, tip: Floats, turns_first: Flags, travels_first: Flags) -> Flags:
     """First rows of rapids that do not turn, or do not travel: their second row does it all."""
-    turn = np.abs(np.diff(angles_deg, axis=0)).max(axis=1, initial=0.0) > SAME_ANGLE_DEG
+    turn = np.abs(np.diff(rotary_deg, axis=0)).max(axis=1, initial=0.0) > SAME_ANGLE_DEG
     travel = np.any(np.diff(tip, axis=0) != 0, axis=1)
     before, after = np.append(False, turn), np.append(turn, False)
     travel_before, travel_after = np.append(False, travel), np.append(travel, False)

@@ -136,6 +136,9 @@ class MachineSetup(Table):
     tool_length_mm: float = key(not_negative("mm"), 0.0)
     retract_z_mm: float = key(number("mm"), 0.0)
 
+    def native(self) -> _core.PartSetup:
+        return _core.PartSetup(part_origin_mm=self.part_origin_mm, tool_length_mm=self.tool_length_mm)
+
 
 @dataclass(frozen=True, kw_only=True)
 class MachineControl(Table):

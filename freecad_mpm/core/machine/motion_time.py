@@ -27,7 +27,7 @@ def move_seconds(machine: Machine, moves: Moves, linear_mm: Floats, blends: bool
     its corners, so that it stops at the end of no block.
 
     Rapids start and end at rest; so does each run of feed moves between two of them."""
-    way = np.diff(np.hstack((linear_mm, moves.angles_deg)), axis=0, prepend=np.nan)
+    way = np.diff(np.hstack((linear_mm, moves.rotary_deg)), axis=0, prepend=np.nan)
     way[0] = 0.0
     drives = drives_of(machine, blends)
     rapid = moves.is_rapid
@@ -46,7 +46,7 @@ def move_seconds(machine: Machine, moves: Moves, linear_mm: Floats, blends: bool
 def slowed_cuts(machine: Machine, moves: Moves) -> NDArray[np.int64]:
     """Rows of cuts in which a rotary axis at its greatest velocity takes more than SLOWED times as long as the tip at
     its feed: the feed drops there, most of all near the pole."""
-    turn = np.abs(np.diff(moves.angles_deg, axis=0, prepend=moves.angles_deg[:1]))
+    turn = np.abs(np.diff(moves.rotary_deg, axis=0, prepend=moves.rotary_deg[:1]))
     velocity = np.array([axis.max_velocity_deg_per_min for axis in machine.rotary_axes])
     way = np.linalg.norm(np.diff(moves.tip, axis=0, prepend=moves.tip[:1]), axis=1)
     cutting = moves.kind == "cut"

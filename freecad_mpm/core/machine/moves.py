@@ -20,12 +20,12 @@ class Moves:
     kind: Names  # (M,), of MOVE_KINDS
     tip: Floats  # (M, 3) mm
     axis: Floats  # (M, 3) unit, from the tip to the spindle
-    angles_deg: Floats  # (M, 2) readings of the machine's rotary axes, from the part to the tool, unwound
+    rotary_deg: Floats  # (M, 2) readings of the machine's rotary axes, from the part to the tool, unwound
     feed_mm_per_min: Floats  # (M,) of the tip; rapids: not read
 
     def __post_init__(self) -> None:
         count = len(self.kind)
-        for name, shape in (("tip", (count, 3)), ("axis", (count, 3)), ("angles_deg", (count, 2))):
+        for name, shape in (("tip", (count, 3)), ("axis", (count, 3)), ("rotary_deg", (count, 2))):
             check_array(name, getattr(self, name), shape)
         unknown = sorted(set(self.kind.tolist()) - set(MOVE_KINDS))
         if unknown:

@@ -63,7 +63,7 @@ class _Pieces:
 def _pieces(machine: Machine, joints: JointPath, hold_tip: bool) -> _Pieces:
     """Of the rapids. hold_tip: the control keeps the tip on its line, else all five axes run evenly."""
     rapids = np.flatnonzero(joints.kind[1:] == "rapid") + 1
-    turn = np.abs(joints.angles_deg[rapids] - joints.angles_deg[rapids - 1]).max(axis=1)
+    turn = np.abs(joints.rotary_deg[rapids] - joints.rotary_deg[rapids - 1]).max(axis=1)
     counts = np.maximum(np.ceil(turn / PIECE_DEG), 1).astype(np.int64)
     row = np.repeat(rapids, counts)
     number = np.arange(len(row)) - np.repeat(np.cumsum(counts) - counts, counts)
@@ -73,15 +73,11 @@ def _pieces(machine: Machine, joints: JointPath, hold_tip: bool) -> _Pieces:
         part = fraction[:, None]
         return np.asarray((1 - part) * column[row - 1] + part * column[row])
 
-    chain = machine.chain()
-    place = {
-        "part_origin_mm": machine.setup.part_origin_mm,
-        "tool_length_mm": machine.setup.tool_length_mm,
-    }
-    readings = [at(column, when) for when in (start, end) for column in (joints.linear_mm, joints.angles_deg)]
-    tip, axis = chain.forward(*readings[:2], **place)
-    tip_to, axis_to = chain.forward(*readings[2:], **place)
-    tip_off_mm, axis_off_deg = chain.deviation_bound(*readings, **place)
+    chain, setup = machine.chain(), machine.setup.native()
+    readings = [at(column, when) for when in (start, end) for column in (joints.linear_mm, joints.rotary_deg)]
+    tip, axis = chain.forward(*readings[:2], setup=setup)
+    tip_to, axis_to = chain.forward(*readings[2:], setup=setup)
+    tip_off_mm, axis_off_deg = chain.deviation_bound(*readings, setup=setup)
     if hold_tip:
         tip, tip_to, tip_off_mm = at(joints.tip, start), at(joints.tip, end), np.zeros(len(row))
     return _Pieces(row, tip, axis, tip_to, axis_to, tip_off_mm, axis_off_deg)

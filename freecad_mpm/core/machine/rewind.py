@@ -12,7 +12,7 @@ from ... import _core
 from ..base import Floats, Integers, Stages, blame
 from ..job import Job
 from ..part import Scene
-from ..path import ToolPath, link_options
+from ..path import ToolPath, from_core, link_options
 from .joints import JointPath, move_machine
 from .machine import Machine
 
@@ -51,7 +51,7 @@ def seam(machine: Machine, path: ToolPath, joints: JointPath, move: int) -> floa
     """The fraction of a cut at which the rotary axis that has to rewind reaches its limit; 0 where it can as well rewind
     before the cut begins."""
     rows = np.flatnonzero(joints.source == move)
-    start, end = joints.angles_deg[rows[0] - 1], joints.angles_deg[rows[-1]]
+    start, end = joints.rotary_deg[rows[0] - 1], joints.rotary_deg[rows[-1]]
     axis = int(np.argmax(np.abs(end - start)))
     rotary, up = machine.rotary_axes[axis], end[axis] < start[axis]
     rewound = start[axis] - math.copysign(TURN_DEG, start[axis] - end[axis])
@@ -98,16 +98,8 @@ def interrupted(
 
 def _pose(path: ToolPath, move: int, fraction: float) -> tuple[Floats, Floats]:
     """Tip and axis that far along a cut."""
-    tip = path.tip[move - 1] + fraction * (path.tip[move] - path.tip[move - 1])
-    return tip, _on_great_circle(path.axis[move - 1], path.axis[move], fraction)
-
-
-def _on_great_circle(a: Floats, b: Floats, s: float) -> Floats:
-    """The direction (3,) a fraction s of the way from a to b, which are not opposite."""
-    angle = float(np.arctan2(np.linalg.norm(np.cross(a, b)), a @ b))
-    if np.sin(angle) == 0.0:
-        return a
-    return np.asarray((np.sin((1.0 - s) * angle) * a + np.sin(s * angle) * b) / np.sin(angle))
+    before = move - 1
+    return _core.pose_between(path.tip[before], path.axis[before], path.tip[move], path.axis[move], fraction)
 
 
 def _interruption(
@@ -140,7 +132,7 @@ def _up_and_down(
     context: _core.Context,
 ) -> ToolPath:
     """From a pose to the safe plane and back to it: the link between two positions that are one and the same."""
-    linked = _core.link_passes(
+    found = _core.link_passes(
         scene.cells,
         scene.tool,
         np.array([tip, tip]),
@@ -150,9 +142,9 @@ def _up_and_down(
         options=options,
         context=context,
     )
-    linked["kind"] = np.array(_core.MOVE_KINDS)[linked["kind"]]
-    first, last = np.flatnonzero(linked["position"] >= 0)
-    way = ToolPath(**{name: column[first + 1 : last + 1] for name, column in linked.items()})
+    linked = from_core(found)
+    first, last = np.flatnonzero(linked.position >= 0)
+    way = ToolPath(**{one.name: getattr(linked, one.name)[first + 1 : last + 1] for one in fields(ToolPath)})
     count = len(way)
     return replace(
         way, position=np.full(count, NO_POSITION), pass_index=np.full(count, pass_index, way.pass_index.dtype)

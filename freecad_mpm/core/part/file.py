@@ -5,18 +5,19 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import TYPE_CHECKING
 
 from ..base import InputError, one_line
 from . import bezier_text
 from .faces import FaceArrays
 
+if TYPE_CHECKING:
+    from ... import _occt as reader
+
 # How far a side of a trim loop may be from the trimming curve.
 DEFAULT_CHORD_MM = 0.01
 KERNEL_ENDINGS = (".step", ".stp", ".iges", ".igs", ".brep", ".brp")
 TEXT_ENDING = ".txt"
-
-Reader = Callable[[str, float], list[dict[str, Any]]]
 
 
 def read_part(path: str | Path, chord_mm: float = DEFAULT_CHORD_MM) -> list[FaceArrays]:
@@ -51,7 +52,9 @@ def _occt() -> ModuleType:
     return _occt
 
 
-def _from_kernel(read: Reader, source: str, chord_mm: float) -> list[FaceArrays]:
+def _from_kernel(
+    read: Callable[[str, float], list[reader.FaceTable]], source: str, chord_mm: float
+) -> list[FaceArrays]:
     try:
         return [FaceArrays(**face) for face in read(source, chord_mm)]
     except ValueError as error:

@@ -12,12 +12,13 @@ from .cl_file import read_csv
 from .cuts import prove
 from .judge import verify
 from .linking import link, link_options
-from .tool_path import ToolPath, path_in_part
+from .tool_path import ToolPath, from_core, path_in_part
 
 __all__ = [
     "STAGE",
     "ToolPath",
     "cl_file",
+    "from_core",
     "link",
     "link_options",
     "path_in_part",

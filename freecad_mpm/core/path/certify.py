@@ -2,16 +2,25 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import NamedTuple
 
 import numpy as np
 
 from ... import _core
-from ..base import Floats, Integers, Stages
+from ..base import Floats, Integers, Names, Stages
 from ..job import Job, control_deviation_deg, control_tip_deviation_mm
 from ..part import Scene
 
 STAGE = "motions"
+
+
+class Certified(NamedTuple):
+    """K moves."""
+
+    lo: Floats  # (K,) mm: proven lower bound of the clearance
+    hi: Floats  # (K,) mm: upper bound
+    verdict: Names  # (K,) of _core.VERDICTS
+    cells: Integers  # (K,) looked at
 
 
 def certify(
@@ -22,10 +31,9 @@ def certify(
     ends: Integers,
     depth_mm: Floats | float,
     stages: Stages,
-) -> dict[str, Any]:
+) -> Certified:
     """Certificates of the moves that lead to the rows `ends` (K,) of tip, axis (N, 3) from the rows before them, which
-    may cut in by depth_mm, one or (K,): lo, hi (K,) mm, verdict (K,) names, cells (K,). A tip that is off its line
-    takes as much off the clearance."""
+    may cut in by depth_mm, one or (K,). A tip that is off its line takes as much off the clearance."""
     tip_off = control_tip_deviation_mm(job)
     found = stages.run_native(
         STAGE,
@@ -39,4 +47,5 @@ def certify(
         tolerance_mm=depth_mm - tip_off,
         axis_deviation_deg=control_deviation_deg(job),
     )
-    return {**found, "lo": found["lo"] - tip_off, "verdict": np.array(_core.VERDICTS)[found["verdict"]]}
+    verdict = np.array(_core.VERDICTS)[found["verdict"]]
+    return Certified(found["lo"] - tip_off, found["hi"], verdict, found["cells"])

@@ -46,8 +46,8 @@ def prove(
         found = certify(
             job, scene, rows.positions.tip, rows.positions.axis, np.flatnonzero(open_moves), depth_mm, stages
         )
-        rows.clearance[open_moves] = np.where(found["verdict"] == "free", found["lo"], np.nan)
-        cells += int(found["cells"].sum())
+        rows.clearance[open_moves] = np.where(found.verdict == "free", found.lo, np.nan)
+        cells += int(found.cells.sum())
         failed = open_moves & np.isnan(rows.clearance)
         if depth == DEPTH or not failed.any():
             break

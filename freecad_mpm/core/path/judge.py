@@ -84,4 +84,4 @@ def verify(job: Job, moves: Moves, stages: Stages) -> Verification:
     clearance = stages.run_native("judge", _core.sampled_clearance, scene.model, scene.tool, tip, axis)
     depth_mm = np.where(moves.kind == "rapid", 0.0, cut_depth_mm(job.tolerance, PROVEN))
     found = certify(job, scene, tip, axis, np.arange(1, len(moves)), depth_mm[1:], stages)
-    return Verification(job, moves, clearance, found["verdict"])
+    return Verification(job, moves, clearance, found.verdict)

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from ... import _core
 from ..base import Floats, Stages, blame
 from ..job import Job, MethodSpec, control_deviation_deg, control_tip_deviation_mm, cut_depth_mm
 from ..part import Scene
 from ..positioning import Positions, guarantee_of
-from .tool_path import ToolPath
+from .tool_path import ToolPath, from_core
 
 # A cut may join positions that are this many forward steps apart; the pattern itself leaves no wider ones in a pass.
 CUT_LENGTH_STEPS = 1.5
@@ -51,9 +49,8 @@ def link(job: Job, scene: Scene, positions: Positions, cuts: Floats | None, stag
             options=link_options(job, guarantee_of(job)),
             cut_clearance=cuts,
         )
-    linked["kind"] = np.array(_core.MOVE_KINDS)[linked["kind"]]
     if len(linked["kind"]) == 0:
         raise job.error(
             MethodSpec.table, "name", f"{job.method.name} found no usable position for this tool and part"
         )
-    return ToolPath(**linked)
+    return from_core(linked)

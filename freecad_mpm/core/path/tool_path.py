@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+import numpy as np
+
+from ... import _core
 from ..base import Flags, Floats, Integers, Names
 from ..part import Frame
 
@@ -27,3 +30,17 @@ class ToolPath:
 
     def __len__(self) -> int:
         return len(self.kind)
+
+
+def from_core(found: _core.ToolPath) -> ToolPath:
+    """The path as the core gives it, the kinds by their names."""
+    return ToolPath(
+        kind=np.array(_core.MOVE_KINDS)[found["kind"]],
+        tip=found["tip"],
+        axis=found["axis"],
+        position=found["position"],
+        pass_index=found["pass_index"],
+        clearance=found["clearance"],
+        blocked=found["blocked"],
+        proven=found["proven"],
+    )

@@ -74,7 +74,7 @@ def draw_control(before: Plan, after: Plan, title: str) -> bytes:
 def _spacing_of(plan: Plan, wanted: Plan) -> Floats:
     along = plan.scene.frame.direction_to_part(spacing.feed(plan.job.footprint.direction_deg))
     measure = wanted.job.method.spacing_measure
-    return spacing.contact_spacing(plan.contacts, plan.status.tolist(), measure, along)
+    return spacing.contact_spacing(plan.contacts, plan.status, measure, along)
 
 
 def _map(

@@ -88,7 +88,7 @@ def place_and_prove(job: Job, scene: Scene, footprint: Footprint, stages: Stages
     def place_more(points: Floats, spins_deg: Floats) -> Positions:
         own = spins_deg if job.method.contact_spacing_mm else None
         placed = stages.run_native(STAGE, positioner.place, points, spins_deg=own)
-        for name, value in placed.pop("counters").items():
+        for name, value in placed["counters"].items():
             counters[name] += value
         passes = np.zeros(len(points), dtype=np.int64)
         return sample(scene, as_positions(Footprint(points, passes), placed), stages, STAGE)

@@ -21,17 +21,17 @@ PART, RAM, SPINDLE, TOOL = "part", "ram", "spindle", "tool"
 PARALLEL = 1e-12
 
 
-def placements(machine: Machine, angles_deg: ArrayLike, linear_mm: ArrayLike) -> dict[str, Floats]:
+def placements(machine: Machine, rotary_deg: ArrayLike, linear_mm: ArrayLike) -> dict[str, Floats]:
     """Body -> matrix (4, 4) from its place with all joints at zero to where it is at these readings.
 
-    angles_deg (2,): of the rotary axes, from the part to the tool; linear_mm (3,): X, Y, Z of the gauge point.
+    rotary_deg (2,): of the rotary axes, from the part to the tool; linear_mm (3,): X, Y, Z of the gauge point.
     part:    what is clamped on the table, with the part; the same as the first table's letter, if there is one.
     letters: a table turns with the tables between it and the bed, a head with the ram and the heads above it.
     ram:     what only travels; its geometry, like that of heads and spindle, is given from the gauge point.
     spindle: the last head, or the ram when both rotary axes are tables.
     tool:    from a tool with its tip at the origin and its axis along +z."""
     part_origin = np.asarray(machine.setup.part_origin_mm)
-    angles = np.asarray(angles_deg, dtype=np.float64)
+    angles = np.asarray(rotary_deg, dtype=np.float64)
     result = _tables(machine, angles, part_origin)
     result[RAM] = translation(np.asarray(linear_mm, dtype=np.float64) - part_origin)
     result |= _heads(machine, angles, result[RAM])
@@ -53,10 +53,10 @@ def tool_in_spindle(machine: Machine) -> Floats:
     return matrix
 
 
-def _tables(machine: Machine, angles_deg: Floats, part_origin: Floats) -> dict[str, Floats]:
+def _tables(machine: Machine, rotary_deg: Floats, part_origin: Floats) -> dict[str, Floats]:
     """A positive reading moves the tool round the part: the table turns the other way."""
     result, matrix = {}, np.eye(4)
-    for axis, angle in reversed(list(zip(machine.rotary_axes, angles_deg))):
+    for axis, angle in reversed(list(zip(machine.rotary_axes, rotary_deg))):
         if axis.role == "table_rotary":
             matrix = matrix @ inverse(
                 _turn(axis, float(angle), np.asarray(axis.joint_origin_mm) - part_origin)
@@ -66,9 +66,9 @@ def _tables(machine: Machine, angles_deg: Floats, part_origin: Floats) -> dict[s
     return result
 
 
-def _heads(machine: Machine, angles_deg: Floats, ram: Floats) -> dict[str, Floats]:
+def _heads(machine: Machine, rotary_deg: Floats, ram: Floats) -> dict[str, Floats]:
     result, matrix = {}, ram
-    for axis, angle in zip(machine.rotary_axes, angles_deg):
+    for axis, angle in zip(machine.rotary_axes, rotary_deg):
         if axis.role == "head_rotary":
             matrix = matrix @ _turn(axis, float(angle), np.asarray(axis.joint_origin_mm))
             result[axis.name] = matrix

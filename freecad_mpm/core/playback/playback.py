@@ -24,7 +24,7 @@ class Moment:
     seconds: float  # since the start
     tip: Floats  # (3,) mm
     axis: Floats  # (3,)
-    angles_deg: Floats  # (2,) readings of the rotary axes
+    rotary_deg: Floats  # (2,) readings of the rotary axes
     linear_mm: Floats  # (3,) readings of X, Y, Z
     joint_status: str  # of _core.JOINT_STATUS
 
@@ -102,7 +102,7 @@ class Playback:
         part = place - before
         under_way = after if part > 0 else before
         tip, angles = (
-            _between(rows, before, after, part) for rows in (self.blocks.tip, self.blocks.angles_deg)
+            _between(rows, before, after, part) for rows in (self.blocks.tip, self.blocks.rotary_deg)
         )
         setup = self.machine.setup
         origin = np.asarray(setup.part_origin_mm)
@@ -115,14 +115,14 @@ class Playback:
             seconds=self.seconds_at(place),
             tip=tip,
             axis=kinematics.tool_axes(self.machine, angles[None])[0],
-            angles_deg=angles,
+            rotary_deg=angles,
             linear_mm=linear[0],
             joint_status=str(self.blocks.status[under_way]),
         )
 
     def placements(self, moment: Moment, part_fixed: bool) -> dict[str, Floats]:
         """Body -> matrix (4, 4) as `machine_motion.placements`, or as seen from the part."""
-        bodies = machine_motion.placements(self.machine, moment.angles_deg, moment.linear_mm)
+        bodies = machine_motion.placements(self.machine, moment.rotary_deg, moment.linear_mm)
         return machine_motion.seen_from_part(bodies) if part_fixed else bodies
 
 
@@ -141,7 +141,7 @@ def describe(played: Playback, place: float) -> dict[str, str]:
     number = played.position_before(place)
     machine, visited = played.machine, played.visited
     linear = {axis.name: f"{value:.3f} mm" for axis, value in zip(machine.linear_axes, moment.linear_mm)}
-    rotary = {axis.name: f"{value:.3f}°" for axis, value in zip(machine.rotary_axes, moment.angles_deg)}
+    rotary = {axis.name: f"{value:.3f}°" for axis, value in zip(machine.rotary_axes, moment.rotary_deg)}
     return {
         "Position": f"{number + 1} of {len(visited.move)}",
         "Status": str(visited.status[number]).replace("_", " ") if number >= 0 else "none reached yet",

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from ... import _core
@@ -42,7 +40,7 @@ def place(
     method, nearest = job.method, spacing.Nearest()
     with blame(f"{job.source}: [{MethodSpec.table}]"):
         if method.contact_spacing_mm:
-            placed = stages.run_native(
+            spaced = stages.run_native(
                 "positions",
                 positioner.place_spaced,
                 footprint.points,
@@ -51,19 +49,27 @@ def place(
                 measure=method.spacing_measure,
                 feed=spacing.feed(job.footprint.direction_deg),
             )
-            placed.pop("contact_spacing_mm")
-            nearest = spacing.Nearest(footprint.points, placed.pop("nearest_spacing_mm"))
+            nearest = spacing.Nearest(footprint.points, spaced["nearest_spacing_mm"])
+            placed: _core.Placements = spaced
         else:
             placed = stages.run_native("positions", positioner.place, footprint.points)
-    counters = placed.pop("counters")
-    return sample(scene, as_positions(footprint, placed), stages, "judge"), nearest, counters
+    return sample(scene, as_positions(footprint, placed), stages, "judge"), nearest, placed["counters"]
 
 
-def as_positions(footprint: Footprint, placed: dict[str, Any]) -> Positions:
+def as_positions(footprint: Footprint, placed: _core.Placements) -> Positions:
     """What a positioner placed over the footprint."""
-    status = np.array(_core.POSITION_STATUS)[placed.pop("status")]
-    of_footprint = np.zeros(len(footprint.points), dtype=bool)
-    return Positions(**placed, status=status, pass_index=footprint.pass_index, inserted=of_footprint)
+    return Positions(
+        tip=placed["tip"],
+        axis=placed["axis"],
+        contacts=placed["contacts"],
+        normals=placed["normals"],
+        status=np.array(_core.POSITION_STATUS)[placed["status"]],
+        clearance=placed["clearance"],
+        tilt_deg=placed["tilt_deg"],
+        spin_deg=placed["spin_deg"],
+        pass_index=footprint.pass_index,
+        inserted=np.zeros(len(footprint.points), dtype=bool),
+    )
 
 
 def sample(scene: Scene, positions: Positions, stages: Stages, stage: str) -> Positions:

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
-from ..base import Floats
+from ..base import Flags, Floats, Names
 from ..job import ACROSS, MethodSpec
 from .positions import Positions
 
@@ -25,9 +23,9 @@ class Nearest:
     points: Floats = field(default_factory=lambda: np.empty((0, 2)))  # (M, 2) mm, set-up frame
     spacing_mm: Floats = field(default_factory=lambda: np.empty(0))  # (M,); NaN: no spin gives any
 
-    def reached(self, wanted_mm: float) -> Any:
+    def reached(self, wanted_mm: float) -> Flags:
         """(M,): some spin gives the wanted spacing."""
-        return np.abs(self.spacing_mm - wanted_mm) <= TOLERANCE * wanted_mm
+        return np.asarray(np.abs(self.spacing_mm - wanted_mm) <= TOLERANCE * wanted_mm)
 
 
 def feed(direction_deg: float) -> Floats:
@@ -36,14 +34,14 @@ def feed(direction_deg: float) -> Floats:
     return np.array([np.cos(angle), np.sin(angle), 0.0])
 
 
-def contact_spacing(contacts: Floats, status: Sequence[str], measure: str, along: Floats) -> Floats:
+def contact_spacing(contacts: Floats, status: Names, measure: str, along: Floats) -> Floats:
     """(...): mm between the contacts (..., 2, 3), seen along the unit vector `along` or directly, all in one frame;
     0 where they coincide, NaN where there is no second one."""
     apart = contacts[..., 1, :] - contacts[..., 0, :]
     if measure == ACROSS:
         apart = apart - (apart @ along)[..., None] * along
     spacing: Floats = np.linalg.norm(apart, axis=-1)
-    return np.where(np.asarray(status) == "curvature_matched", 0.0, spacing)
+    return np.where(status == "curvature_matched", 0.0, spacing)
 
 
 @dataclass(frozen=True)
@@ -80,7 +78,7 @@ class KeptSpacing:
 def kept_spacing(method: MethodSpec, positions: Positions, nearest: Nearest, along: Floats) -> KeptSpacing:
     """Figures for the report; positions and `along` in one frame."""
     wanted = method.contact_spacing_mm
-    spacing = contact_spacing(positions.contacts, positions.status.tolist(), method.spacing_measure, along)
+    spacing = contact_spacing(positions.contacts, positions.status, method.spacing_measure, along)
     kept = np.abs(spacing - wanted) <= TOLERANCE * wanted
     missed = ~nearest.reached(wanted)
     return KeptSpacing(

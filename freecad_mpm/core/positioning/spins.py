@@ -54,12 +54,11 @@ def spread(
     status = np.array(_core.POSITION_STATUS)[placed["status"]].reshape(shape)
     for x, y in points[(status == "off_part").all(axis=1)][:1]:
         raise InputError(f"({x:g}, {y:g}): lies beside the part: no spin of the tool touches it there")
-    tip, axis = (placed[name].reshape(*shape, 3) for name in ("tip", "axis"))
+    tip, axis = placed["tip"].reshape(*shape, 3), placed["axis"].reshape(*shape, 3)
     along = spacing.feed(job.footprint.direction_deg)
     widths = stages.run("strips", _widths, scene, points, tip, axis, contacts, along, scallop_mm)
     across, direct = (
-        spacing.contact_spacing(contacts, status.ravel().reshape(shape), measure, along)
-        for measure in (ACROSS, DIRECT)
+        spacing.contact_spacing(contacts, status, measure, along) for measure in (ACROSS, DIRECT)
     )
     return Spread(
         points,

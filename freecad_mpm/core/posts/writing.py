@@ -53,9 +53,9 @@ def move_table(program: Program, style: Style) -> MoveTable:
     """Raises InputError for a number that the controls cannot take."""
     moves, decimals = program.moves, program.options.decimals
     check_range("tip", program.xyz_mm)
-    check_range("angles_deg", moves.angles_deg)
+    check_range("rotary_deg", moves.rotary_deg)
     xyz = rounded(program.xyz_mm, decimals)
-    angles = rounded(moves.angles_deg, decimals)[:, rotary_order(program)]
+    angles = rounded(moves.rotary_deg, decimals)[:, rotary_order(program)]
     travels, turns = changes(xyz), changes(angles)
     # The joints' way is only straight at feed, and only then are the tip and the tool's direction where they should be.
     rapid = moves.is_rapid if program.tcp else moves.is_rapid & ~(travels & turns)
@@ -129,7 +129,7 @@ def block_minutes(program: Program) -> Floats:
     minutes = way / np.where(moves.is_rapid, np.inf, moves.feed_mm_per_min)
     for k, rotary in enumerate(machine.rotary_axes):
         minutes = np.maximum(
-            minutes, np.abs(_steps(moves.angles_deg))[:, k] / rotary.max_velocity_deg_per_min
+            minutes, np.abs(_steps(moves.rotary_deg))[:, k] / rotary.max_velocity_deg_per_min
         )
     if program.axes_mm is not None:
         for k, linear in enumerate(machine.linear_axes):
@@ -169,7 +169,7 @@ def rotary_names(program: Program) -> tuple[str, ...]:
 
 def first_rotary(program: Program) -> list[float]:
     """Where the rotary axes stand for the first move, in the order of their letters."""
-    return program.moves.angles_deg[0, rotary_order(program)].tolist()
+    return program.moves.rotary_deg[0, rotary_order(program)].tolist()
 
 
 def rounded(values: Floats, decimals: int) -> Floats:

@@ -82,15 +82,12 @@ def report(
     program: Program,
     blocks: int,
     checks: CheckResult,
-    part_origin_mm: tuple[float, ...] | None = None,
-    tool_length_mm: float | None = None,
 ) -> ProgramReport:
-    """Figures of a program of so many blocks whose text was checked; set-up as for `check_program`."""
+    """Figures of a program of so many blocks whose text was checked."""
     machine, moves = program.machine, program.moves
     setup = machine.setup
-    origin = np.array(setup.part_origin_mm if part_origin_mm is None else part_origin_mm)
-    length = setup.tool_length_mm if tool_length_mm is None else tool_length_mm
-    linear = kinematics.linear_readings(machine, moves.tip, moves.angles_deg, origin, length)
+    origin = np.array(setup.part_origin_mm)
+    linear = kinematics.linear_readings(machine, moves.tip, moves.rotary_deg, origin, setup.tool_length_mm)
     blends = program.options.path_tolerance_mm > 0
     passages, nearest = _pole_passages(machine, moves)
     return ProgramReport(
@@ -124,13 +121,13 @@ def _axis_use(machine: Machine, moves: Moves, linear_mm: Floats) -> dict[str, Ax
         low, high = float(linear_mm[:, k].min()), float(linear_mm[:, k].max())
         uses[linear.name] = AxisUse(low, high, linear.min_limit_mm, linear.max_limit_mm)
     for k, rotary in enumerate(machine.rotary_axes):
-        low, high = float(moves.angles_deg[:, k].min()), float(moves.angles_deg[:, k].max())
+        low, high = float(moves.rotary_deg[:, k].min()), float(moves.rotary_deg[:, k].max())
         uses[rotary.name] = AxisUse(low, high, rotary.min_limit_deg, rotary.max_limit_deg)
     return uses
 
 
 def _largest_steps(machine: Machine, moves: Moves) -> dict[str, float]:
-    steps = np.abs(np.diff(moves.angles_deg, axis=0))[~moves.is_rapid[1:]]
+    steps = np.abs(np.diff(moves.rotary_deg, axis=0))[~moves.is_rapid[1:]]
     return dict(zip(machine.rotary_letters, steps.max(axis=0, initial=0.0).tolist()))
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -82,8 +82,8 @@ class Cut:
     deviation: Deviation
     overcut: Overcut  # of the check faces
     below_mm: float  # gouges deeper than this are given as so deep
-    sweep: Any  # the native _core.ToolSweep of the path, for more rays
-    dexels: Any  # the native _core.DexelStock after the cut; None: `with_stock` was False
+    sweep: _core.ToolSweep  # of the path, for more rays
+    dexels: _core.DexelStock | None  # after the cut; None: `with_stock` was False
     seconds: dict[str, float]  # wall time of the stages
 
     def mesh(self) -> Mesh:
@@ -197,7 +197,12 @@ def default_resolution_mm(scene: Scene) -> float:
 
 
 def cut_rays(
-    sweep: Any, points: Floats, directions: Floats, stock: Box, below_mm: float, context: Any
+    sweep: _core.ToolSweep,
+    points: Floats,
+    directions: Floats,
+    stock: Box,
+    below_mm: float,
+    context: _core.Context,
 ) -> tuple[Floats, Integers]:
     """Heights (N,) and moves (N,) on rays from `points` along `directions` (N, 3) (set-up frame) that material fills up
     to the top of the stock; beside the stock's box it goes on for `below_mm`, so that a border has its scallops.
@@ -218,13 +223,13 @@ def _way_out(points: Floats, directions: Floats, box: Box) -> Floats:
     return np.maximum(far, 0.0)
 
 
-def _cut_dexels(sweep: Any, stock: Box, resolution_mm: float, stages: Stages) -> Any:
+def _cut_dexels(sweep: _core.ToolSweep, stock: Box, resolution_mm: float, stages: Stages) -> _core.DexelStock:
     dexels = _core.DexelStock(stock.lo, stock.hi, resolution_mm)
     stages.run_native("stock", dexels.cut, sweep)
     return dexels
 
 
-def _mesh(scene: Scene, dexels: Any) -> Mesh:
+def _mesh(scene: Scene, dexels: _core.DexelStock) -> Mesh:
     vertices, triangles = dexels.mesh()
     return Mesh(scene.frame.to_part(vertices), triangles)
 
@@ -241,7 +246,12 @@ def stock_box(scene: Scene, box: tuple[Sequence[float], Sequence[float]] | None,
 
 
 def _deviation(
-    scene: Scene, sweep: Any, stock: Box, only_inside: bool, spacing_mm: float, stages: Stages
+    scene: Scene,
+    sweep: _core.ToolSweep,
+    stock: Box,
+    only_inside: bool,
+    spacing_mm: float,
+    stages: Stages,
 ) -> Deviation:
     samples = stages.run_native(
         "samples", _core.sample_surfaces, scene.model, spacing_mm=spacing_mm, lo=stock.lo, hi=stock.hi
@@ -261,12 +271,17 @@ def _deviation(
     )
 
 
-def _inside(samples: dict[str, Any], stock: Box) -> dict[str, Any]:
+def _inside(samples: _core.SurfaceSamples, stock: Box) -> _core.SurfaceSamples:
     """Only the samples in the box, and the triangles between them."""
     kept = ((samples["points"] >= stock.lo) & (samples["points"] <= stock.hi)).all(axis=1)
     if not kept.any():
         raise ValueError("box: no point of the faces to machine lies in it")
     number = np.cumsum(kept) - 1
     triangles = samples["triangles"][kept[samples["triangles"]].all(axis=1)]
-    found = {name: samples[name][kept] for name in ("points", "normals", "face", "at")}
-    return found | {"triangles": number[triangles].astype(np.uint32)}
+    return {
+        "points": samples["points"][kept],
+        "normals": samples["normals"][kept],
+        "at": samples["at"][kept],
+        "face": samples["face"][kept],
+        "triangles": number[triangles].astype(np.uint32),
+    }

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,7 +56,7 @@ def depths(scene: Scene, path: Moves, points: Floats, stages: Stages) -> tuple[F
     return depth, move.astype(np.int64)
 
 
-def _around_cuts(scene: Scene, samples: dict[str, Any], depth: Floats, move: Integers) -> Overcut:
+def _around_cuts(scene: Scene, samples: _core.SurfaceSamples, depth: Floats, move: Integers) -> Overcut:
     triangles = samples["triangles"]
     shown = triangles[(depth[triangles] > 0).any(axis=1)]
     kept = depth > 0

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -168,7 +168,7 @@ def _onto_plane(face: FaceArrays, at: Floats, plane: Plane) -> tuple[Floats, Flo
     )
     u0, u1, v0, v1 = surface.domain
     for _ in range(NEWTON_STEPS):
-        jet: Any = surface.evaluate(at[:, 0].copy(), at[:, 1].copy())
+        jet = surface.evaluate(at[:, 0].copy(), at[:, 1].copy())
         miss = (jet[:, 0] - plane.origin) @ plane.normal
         slope = jet[:, 1:3] @ plane.normal
         size = np.einsum("ij,ij->i", slope, slope)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple, Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
@@ -44,7 +44,7 @@ def way(scene: Scene, path: Moves) -> tuple[Floats, Floats, Flags]:
     return frame.to_setup(path.tip), frame.direction_to_setup(path.axis), removes
 
 
-def tool_sweep(scene: Scene, path: Moves) -> Any:
+def tool_sweep(scene: Scene, path: Moves) -> _core.ToolSweep:
     """The native sweep of a path by the scene's tool."""
     return _core.ToolSweep(scene.tool, *way(scene, path))
 

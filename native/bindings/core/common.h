@@ -1,4 +1,5 @@
-// Conversions that the binding files share: numpy arrays in and out, with the shape named when it is wrong.
+// Conversions that the binding files share: arguments from Python, with the shape or the word named when it
+// is wrong. README.md beside this folder says how the two sides meet; columns.h has the way back.
 #pragma once
 
 #include <pybind11/eigen.h>
@@ -6,6 +7,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -16,7 +18,11 @@ namespace mpm::bindings {
 
 namespace py = pybind11;
 
-using DoubleArray = py::array_t<double, py::array::c_style | py::array::forcecast>;
+template <class T>
+using ArrayOf = py::array_t<T, py::array::c_style | py::array::forcecast>;
+using DoubleArray = ArrayOf<double>;
+using IntArray = ArrayOf<std::int32_t>;
+using FlagArray = ArrayOf<bool>;
 
 inline std::string shape_of(const py::array& a) {
   std::string s = "(";
@@ -27,7 +33,9 @@ inline std::string shape_of(const py::array& a) {
   return s + ")";
 }
 
-inline std::vector<double> to_doubles(const DoubleArray& a, const char* name) {
+// (N,) -> numbers of a type that may be another one: flags are held as std::uint8_t.
+template <class To = double, class From>
+std::vector<To> to_scalars(const ArrayOf<From>& a, const char* name) {
   require(a.ndim() == 1, std::string(name) + " must have shape (N,), got " + shape_of(a));
   return {a.data(), a.data() + a.size()};
 }
@@ -54,18 +62,43 @@ std::vector<Vector> to_vectors(const DoubleArray& a, const char* name) {
   return result;
 }
 
-template <class Vector>
-py::array_t<double> from_vectors(const std::vector<Vector>& v) {
-  constexpr py::ssize_t width = Vector::RowsAtCompileTime;
-  py::array_t<double> result({py::ssize_t(v.size()), width});
-  for (std::size_t i = 0; i < v.size(); ++i)
-    Eigen::Map<Vector>(result.mutable_data() + i * std::size_t(width)) = v[i];
-  return result;
+inline Vec3 to_direction(const Vec3& v, const std::string& name) {
+  const double length = v.norm();
+  require(std::isfinite(length) && length > 0, name + " must be finite and not zero");
+  return v / length;
 }
 
-template <class T>
-py::array_t<T> from_scalars(const std::vector<T>& v) {
-  return py::array_t<T>(py::ssize_t(v.size()), v.data());
+inline void require_same_length(std::size_t a, std::size_t b, const char* names) {
+  require(a == b,
+          std::string(names) + " must have the same length, got " + std::to_string(a) + " and " +
+              std::to_string(b));
+}
+
+// The words for an enum's values, which stand beside it in its header.
+template <std::size_t N>
+using Names = std::array<const char*, N>;
+
+template <std::size_t N>
+py::tuple to_tuple(const Names<N>& names) {
+  return py::tuple(py::cast(names));
+}
+
+// The value that a word stands for.
+template <class Enum, std::size_t N>
+Enum from_name(const Names<N>& names, const char* argument, const std::string& name) {
+  std::string known;
+  for (std::size_t i = 0; i < N; ++i) {
+    if (name == names[i]) return Enum(i);
+    known += (i == 0 ? "'" : i + 1 < N ? "', '" : "' or '") + std::string(names[i]);
+  }
+  throw std::invalid_argument(std::string(argument) + " must be " + known + "', got '" + name + "'");
+}
+
+// Lets Python's other threads run while `work` runs, which must not touch anything of Python's.
+template <class Work>
+auto without_gil(const Work& work) {
+  const py::gil_scoped_release released;
+  return work();
 }
 
 // One per binding file, called by module.cpp in the order of the layers.

@@ -1,4 +1,4 @@
-#include "common.h"
+#include "columns.h"
 #include "mpm/footprint/raster.h"
 
 namespace mpm::bindings {
@@ -15,7 +15,7 @@ void bind_footprint(py::module_& m) {
          bool zigzag) {
         const Footprint f =
             raster(lo, hi, {radians(direction_deg), side_step_mm, forward_step_mm, margin_mm, zigzag});
-        return py::make_tuple(from_vectors(f.points), from_scalars(f.pass));
+        return py::make_tuple(to_array(f.points), to_array(f.pass));
       },
       py::arg("lo"),
       py::arg("hi"),

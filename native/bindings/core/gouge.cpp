@@ -1,4 +1,4 @@
-#include "common.h"
+#include "columns.h"
 #include "mpm/gouge/certify_motion.h"
 #include "mpm/gouge/certify_poses.h"
 #include "mpm/gouge/judge_cells.h"
@@ -22,17 +22,10 @@ std::vector<ToolPose> to_poses(const Tool& tool,
 
 template <class Found>
 py::dict to_dict(const std::vector<Found>& found) {
-  std::vector<double> lo, hi;
-  std::vector<std::uint8_t> verdict;
-  std::vector<std::uint64_t> cells;
-  for (const Found& c : found) {
-    lo.push_back(c.lo), hi.push_back(c.hi), cells.push_back(c.cells);
-    verdict.push_back(std::uint8_t(c.verdict));
-  }
-  py::dict result;
-  result["lo"] = from_scalars(lo), result["hi"] = from_scalars(hi);
-  result["verdict"] = from_scalars(verdict), result["cells"] = from_scalars(cells);
-  return result;
+  return table({{"lo", column(found, &Found::lo)},
+                {"hi", column(found, &Found::hi)},
+                {"verdict", column(found, &Found::verdict)},
+                {"cells", column(found, &Found::cells)}});
 }
 
 py::dict poses(const SurfaceModel& model,
@@ -44,12 +37,7 @@ py::dict poses(const SurfaceModel& model,
   const std::vector<ToolPose> all = to_poses(tool, tips, axes, "tips", "axes");
   for (const ToolPose& pose : all)
     require(pose.torus_center.allFinite() && pose.axis.allFinite(), "tips, axes: must be finite");
-  std::vector<Certificate> found;
-  {
-    py::gil_scoped_release release;
-    found = certify_poses(model, tool, all, tolerance_mm, context);
-  }
-  return to_dict(found);
+  return to_dict(without_gil([&] { return certify_poses(model, tool, all, tolerance_mm, context); }));
 }
 
 py::array_t<double> sampled_clearance(const SurfaceModel& model,
@@ -58,12 +46,7 @@ py::array_t<double> sampled_clearance(const SurfaceModel& model,
                                       const DoubleArray& axes,
                                       Context& context) {
   const std::vector<ToolPose> all = to_poses(tool, tips, axes, "tips", "axes");
-  std::vector<double> found;
-  {
-    py::gil_scoped_release release;
-    found = sample_poses(model, tool, all, context);
-  }
-  return from_scalars(found);
+  return to_array(without_gil([&] { return sample_poses(model, tool, all, context); }));
 }
 
 // One number for all motions, or one for each.
@@ -97,12 +80,7 @@ py::dict motions(const CellTree& cells,
     options.axis_deviation = radians(of_motion(axis_deviation_deg, i));
     all.push_back({from[i], to[i], options});
   }
-  std::vector<MotionCertificate> found;
-  {
-    py::gil_scoped_release release;
-    found = certify_motions(cells, tool, all, context);
-  }
-  return to_dict(found);
+  return to_dict(without_gil([&] { return certify_motions(cells, tool, all, context); }));
 }
 
 }  // namespace
@@ -111,13 +89,12 @@ void bind_gouge(py::module_& m) {
   py::class_<CellTree, std::shared_ptr<CellTree>>(
       m, "CellTree", "The faces in pieces of all sizes, with bounds: what proofs about one tool work on.")
       .def(py::init([](const SurfaceModel& model, const Tool& tool) {
-             py::gil_scoped_release release;
-             return std::make_shared<CellTree>(judge_cells(model, tool));
+             return without_gil([&] { return std::make_shared<CellTree>(judge_cells(model, tool)); });
            }),
            py::arg("model"),
            py::arg("tool"),
            py::keep_alive<1, 2>());
-  m.attr("VERDICTS") = py::make_tuple("free", "gouge", "undecided");
+  m.attr("VERDICTS") = to_tuple(kVerdictNames);
   m.def("certify_poses",
         &poses,
         py::arg("model"),
@@ -127,9 +104,7 @@ void bind_gouge(py::module_& m) {
         py::kw_only(),
         py::arg("tolerance_mm"),
         py::arg("context"),
-        "Certificates of the poses tips, axes (N, 3). Dict of lo, hi (N,) mm, proven and met bounds of the "
-        "clearance (lo of a pose deeper than tolerance_mm: within a thousandth of the depth, or -inf), "
-        "verdict (N,) codes of VERDICTS, cells (N,).");
+        "Certificates of the poses tips, axes (N, 3); free: nothing cuts in deeper than tolerance_mm.");
   m.def("sampled_clearance",
         &sampled_clearance,
         py::arg("model"),
@@ -152,9 +127,9 @@ void bind_gouge(py::module_& m) {
         py::arg("axis_deviation_deg") = DoubleArray(py::float_(0.0)),
         py::arg("context"),
         "Certificates of the moves from each tip, axis (N, 3) to tips_to, axes_to (N, 3): tip on a line, "
-        "axis within axis_deviation_deg of the great circle. tolerance_mm may be cut in; negative, it is the "
-        "clearance asked for. Both are one number or (N,). Dict of lo, hi (N,) mm, proven and met bounds of "
-        "the least clearance (infinite: none), verdict (N,) codes of VERDICTS, cells (N,).");
+        "axis within "
+        "axis_deviation_deg of the great circle. tolerance_mm may be cut in; negative, it is the clearance "
+        "asked for.");
 }
 
 }  // namespace mpm::bindings

@@ -1,39 +1,28 @@
 #include <optional>
 
-#include "common.h"
+#include "columns.h"
 #include "mpm/path/link_passes.h"
 
 namespace mpm::bindings {
 namespace {
 
-template <class To, class From>
-std::vector<To> to_scalars(const py::array_t<From, py::array::c_style | py::array::forcecast>& a,
-                           const char* name) {
-  require(a.ndim() == 1, std::string(name) + " must have shape (N,), got " + shape_of(a));
-  return {a.data(), a.data() + a.size()};
-}
-
 py::dict to_dict(const ToolPath& path) {
-  std::vector<std::uint8_t> kind;
-  for (MoveKind k : path.kind) kind.push_back(std::uint8_t(k));
-  py::dict result;
-  result["kind"] = from_scalars(kind);
-  result["tip"] = from_vectors(path.tip);
-  result["axis"] = from_vectors(path.axis);
-  result["position"] = from_scalars(path.position);
-  result["pass_index"] = from_scalars(path.pass);
-  result["clearance"] = from_scalars(path.clearance);
-  result["proven"] = from_scalars(path.proven).attr("astype")("bool");
-  result["blocked"] = from_scalars(path.blocked).attr("astype")("bool");
-  return result;
+  return table({{"kind", to_array(path.kind)},
+                {"tip", to_array(path.tip)},
+                {"axis", to_array(path.axis)},
+                {"position", to_array(path.position)},
+                {"pass_index", to_array(path.pass)},
+                {"clearance", to_array(path.clearance)},
+                {"proven", to_flags(path.proven)},
+                {"blocked", to_flags(path.blocked)}});
 }
 
 py::dict link(const CellTree& cells,
               const Tool& tool,
               const DoubleArray& tip,
               const DoubleArray& axis,
-              const py::array_t<std::int32_t, py::array::c_style | py::array::forcecast>& pass_index,
-              const py::array_t<bool, py::array::c_style | py::array::forcecast>& usable,
+              const IntArray& pass_index,
+              const FlagArray& usable,
               const LinkOptions& options,
               const std::optional<DoubleArray>& cut_clearance,
               Context& context) {
@@ -42,13 +31,8 @@ py::dict link(const CellTree& cells,
       to_vectors<Vec3>(axis, "axis"),
       to_scalars<std::int32_t>(pass_index, "pass_index"),
       to_scalars<std::uint8_t>(usable, "usable"),
-      cut_clearance ? to_doubles(*cut_clearance, "cut_clearance") : std::vector<double>{}};
-  ToolPath path;
-  {
-    py::gil_scoped_release release;
-    path = link_passes(cells, tool, positions, options, context);
-  }
-  return to_dict(path);
+      cut_clearance ? to_scalars(*cut_clearance, "cut_clearance") : std::vector<double>{}};
+  return to_dict(without_gil([&] { return link_passes(cells, tool, positions, options, context); }));
 }
 
 LinkOptions make_options(double safe_clearance_mm,
@@ -78,9 +62,7 @@ LinkOptions make_options(double safe_clearance_mm,
 }  // namespace
 
 void bind_path(py::module_& m) {
-  py::list names;
-  for (const char* name : kMoveKindNames) names.append(name);
-  m.attr("MOVE_KINDS") = py::tuple(names);
+  m.attr("MOVE_KINDS") = to_tuple(kMoveKindNames);
   py::class_<LinkOptions>(m, "LinkOptions", "Heights, distances and limits of the links between cuts.")
       .def(py::init(&make_options),
            py::kw_only(),
@@ -102,26 +84,23 @@ void bind_path(py::module_& m) {
            "cut_length_max, cut_turn_max: what one cut may join; rapid_turn_max: axis motion of one rapid; "
            "depth: what a proven plunge or retract may cut in, the real tip and axis being off by their "
            "deviations.");
-  m.def(
-      "link_passes",
-      &link,
-      py::arg("cells"),
-      py::arg("tool"),
-      py::arg("tip"),
-      py::arg("axis"),
-      py::arg("pass_index"),
-      py::arg("usable"),
-      py::kw_only(),
-      py::arg("options") = LinkOptions{},
-      py::arg("cut_clearance") = py::none(),
-      py::arg("context"),
-      "Joins the usable positions (tip, axis (N, 3), pass_index, usable (N,); set-up frame) to a path: "
-      "cuts along the passes, checked links over every gap. cut_clearance (N,): proven clearance (mm) of the "
-      "cut that ends in each position, NaN where it must not be cut; None: sampling decides. Dict of kind "
-      "(M,) codes of MOVE_KINDS, tip, axis (M, 3), position (M,) index or -1, pass_index (M,), clearance "
-      "(M,) mm, least sampled along the move or the proven bound, proven (M,), and blocked (M,): True where "
-      "no "
-      "free way was found.");
+  m.def("link_passes",
+        &link,
+        py::arg("cells"),
+        py::arg("tool"),
+        py::arg("tip"),
+        py::arg("axis"),
+        py::arg("pass_index"),
+        py::arg("usable"),
+        py::kw_only(),
+        py::arg("options") = LinkOptions{},
+        py::arg("cut_clearance") = py::none(),
+        py::arg("context"),
+        "Joins the usable positions (tip, axis (N, 3), pass_index, usable (N,); set-up frame) to a path: "
+        "cuts along "
+        "the passes, checked links over every gap. cut_clearance (N,): proven clearance (mm) of the cut that "
+        "ends in "
+        "each position, NaN where it must not be cut; None: sampling decides.");
 }
 
 }  // namespace mpm::bindings

@@ -1,4 +1,4 @@
-#include "common.h"
+#include "columns.h"
 #include "mpm/removal/dexel_mesh.h"
 #include "mpm/removal/dexel_stock.h"
 #include "mpm/removal/normal_rays.h"
@@ -8,16 +8,12 @@
 namespace mpm::bindings {
 namespace {
 
-using FlagArray = py::array_t<bool, py::array::c_style | py::array::forcecast>;
-using IntArray = py::array_t<std::int32_t, py::array::c_style | py::array::forcecast>;
-
 SweptPath to_path(const DoubleArray& tip, const DoubleArray& axis, const FlagArray& removes) {
   const std::vector<Vec3> tips = to_vectors<Vec3>(tip, "tip"), axes = to_vectors<Vec3>(axis, "axis");
   require(tips.size() == axes.size(), "tip and axis must have the same shape (M, 3)");
-  require(removes.ndim() == 1, "removes must have shape (M,), got " + shape_of(removes));
   SweptPath path;
   for (std::size_t i = 0; i < tips.size(); ++i) path.poses.push_back({tips[i], axes[i]});
-  path.removes.assign(removes.data(), removes.data() + removes.size());
+  path.removes = to_scalars<std::uint8_t>(removes, "removes");
   return path;
 }
 
@@ -36,18 +32,8 @@ py::tuple overcut(const Tool& tool,
                   Context& context) {
   const SweptPath path = to_path(tip, axis, removes);
   const std::vector<Vec3> at = to_vectors<Vec3>(points, "points");
-  Overcut found;
-  {
-    py::gil_scoped_release release;
-    found = find_overcut(at, tool, path, context);
-  }
-  return py::make_tuple(from_scalars(found.depth), from_scalars(found.move));
-}
-
-py::array_t<std::uint32_t> from_triangles(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
-  py::array_t<std::uint32_t> result({py::ssize_t(triangles.size()), py::ssize_t(3)});
-  std::copy_n(triangles.empty() ? nullptr : triangles[0].data(), triangles.size() * 3, result.mutable_data());
-  return result;
+  const Overcut found = without_gil([&] { return find_overcut(at, tool, path, context); });
+  return py::make_tuple(to_array(found.depth), to_array(found.move));
 }
 
 py::tuple cut_free_rays(const ToolSweep& sweep,
@@ -60,26 +46,19 @@ py::tuple cut_free_rays(const ToolSweep& sweep,
   const std::size_t count = vectors_in<Vec3>(origins, "origins");
   require(count == vectors_in<Vec3>(directions, "directions"),
           "origins and directions must have the same shape (N, 3)");
-  NormalRays rays{{}, to_doubles(height, "height"), {}, below_mm};
+  NormalRays rays{{}, to_scalars(height, "height"), {}, below_mm};
   rays.rays.reserve(count);
   for (std::size_t i = 0; i < count; ++i)
     rays.rays.push_back({vector_at<Vec3>(origins, i), vector_at<Vec3>(directions, i)});
   rays.move.assign(count, -1);
-  if (move) rays.move.assign(move->data(), move->data() + move->size());
-  {
-    py::gil_scoped_release release;
-    cut_rays(rays, sweep, context);
-  }
-  return py::make_tuple(from_scalars(rays.height), from_scalars(rays.move));
+  if (move) rays.move = to_scalars<std::int32_t>(*move, "move");
+  without_gil([&] { cut_rays(rays, sweep, context); });
+  return py::make_tuple(to_array(rays.height), to_array(rays.move));
 }
 
 py::tuple mesh_of(const DexelStock& stock) {
-  TriangleMesh mesh;
-  {
-    py::gil_scoped_release release;
-    mesh = stock_mesh(stock);
-  }
-  return py::make_tuple(from_vectors(mesh.vertices), from_triangles(mesh.triangles));
+  const TriangleMesh mesh = without_gil([&] { return stock_mesh(stock); });
+  return py::make_tuple(to_array(mesh.vertices), to_array(mesh.triangles));
 }
 
 py::list dexel(const DexelStock& stock, int axis, std::size_t u, std::size_t v) {
@@ -94,16 +73,14 @@ py::list dexel(const DexelStock& stock, int axis, std::size_t u, std::size_t v) 
 
 py::dict surface_samples(
     const SurfaceModel& model, double spacing_mm, const Vec3& lo, const Vec3& hi, Context& context) {
-  SurfaceSamples samples;
-  {
-    py::gil_scoped_release release;
-    samples = sample_surfaces(model, spacing_mm, Box3{lo, hi}, context);
-  }
-  py::dict result;
-  result["points"] = from_vectors(samples.points), result["normals"] = from_vectors(samples.normals);
-  result["at"] = from_vectors(samples.at), result["face"] = from_scalars(samples.face);
-  result["triangles"] = from_triangles(samples.triangles);
-  return result;
+  const SurfaceSamples samples = without_gil([&] {
+    return sample_surfaces(model, spacing_mm, Box3{lo, hi}, context);
+  });
+  return table({{"points", to_array(samples.points)},
+                {"normals", to_array(samples.normals)},
+                {"at", to_array(samples.at)},
+                {"face", to_array(samples.face)},
+                {"triangles", to_array(samples.triangles)}});
 }
 
 void bind_stock(py::module_& m) {
@@ -197,9 +174,7 @@ void bind_removal(py::module_& m) {
         py::arg("lo"),
         py::arg("hi"),
         py::arg("context"),
-        "Points of the faces to machine about spacing_mm apart, those well outside of lo..hi left out: dict "
-        "of points, normals (N, 3), "
-        "at (N, 2), their parameters, face (N,), index into the model's, triangles (T, 3).");
+        "Points of the faces to machine about spacing_mm apart, those well outside of lo..hi left out.");
 }
 
 }  // namespace mpm::bindings

@@ -19,7 +19,7 @@ BSplineSurface make_surface(int degree_u,
         "weights must have shape (nu, nv) like the poles, got " + shape_of(*weights));
     w.assign(weights->data(), weights->data() + weights->size());
   }
-  const std::vector<double> ku = to_doubles(knots_u, "knots_u"), kv = to_doubles(knots_v, "knots_v");
+  const std::vector<double> ku = to_scalars(knots_u, "knots_u"), kv = to_scalars(knots_v, "knots_v");
   require(py::ssize_t(ku.size()) == poles.shape(0) + degree_u + 1,
           "knots_u must have nu + degree_u + 1 = " + std::to_string(poles.shape(0) + degree_u + 1) +
               " entries, got " + std::to_string(ku.size()));

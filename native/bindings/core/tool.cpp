@@ -1,8 +1,21 @@
 #include "mpm/tool/tool.h"
 
-#include "common.h"
+#include "columns.h"
 
 namespace mpm::bindings {
+
+namespace {
+
+py::array_t<double> distances(const Tool& tool,
+                              const Vec3& tip,
+                              const Vec3& axis,
+                              const DoubleArray& points) {
+  const ToolPose pose = ToolPose::from_tip(tool, tip, axis);
+  return column(to_vectors<Vec3>(points, "points"),
+                [&](const Vec3& p) { return signed_distance(tool, pose, p); });
+}
+
+}  // namespace
 
 void bind_tool(py::module_& m) {
   py::class_<Tool>(m, "Tool", "A toroidal cutter with flutes, shank and holder (all mm).")
@@ -30,19 +43,12 @@ void bind_tool(py::module_& m) {
       .def_property_readonly("radius", &Tool::radius)
       .def_property_readonly("length", &Tool::length)
       .def_property_readonly("reach", &Tool::reach)
-      .def(
-          "signed_distance",
-          [](const Tool& tool, const Vec3& tip, const Vec3& axis, const DoubleArray& points) {
-            const ToolPose pose = ToolPose::from_tip(tool, tip, axis);
-            std::vector<double> result;
-            for (const Vec3& p : to_vectors<Vec3>(points, "points"))
-              result.push_back(mpm::signed_distance(tool, pose, p));
-            return from_scalars(result);
-          },
-          py::arg("tip"),
-          py::arg("axis"),
-          py::arg("points"),
-          "Signed distance (mm) of points (N, 3) from the tool standing at tip with axis.");
+      .def("signed_distance",
+           &distances,
+           py::arg("tip"),
+           py::arg("axis"),
+           py::arg("points"),
+           "Signed distance (mm) of points (N, 3) from the tool standing at tip with axis.");
 }
 
 }  // namespace mpm::bindings

@@ -4,7 +4,7 @@
 #include <Standard_Version.hxx>
 #include <TopoDS_Compound.hxx>
 
-#include "core/common.h"
+#include "core/columns.h"
 #include "mpm/occt/face_arrays.h"
 #include "mpm/occt/failure.h"
 #include "mpm/occt/shape_file.h"
@@ -14,28 +14,23 @@ namespace {
 
 using occt::FaceArrays;
 
-py::array_t<double> grid(const std::vector<double>& values, std::size_t rows, std::size_t columns) {
-  return py::array_t<double>({py::ssize_t(rows), py::ssize_t(columns)}, values.data());
-}
-
 py::dict to_dict(const FaceArrays& face) {
-  py::dict d;
-  d["name"] = face.name;
-  d["kind"] = face.kind;
-  d["degree_u"] = face.degree_u;
-  d["degree_v"] = face.degree_v;
-  d["knots_u"] = from_scalars(face.knots_u);
-  d["knots_v"] = from_scalars(face.knots_v);
-  d["poles"] = from_vectors(face.poles)
-                   .reshape({py::ssize_t(face.poles_u), py::ssize_t(face.poles_v), py::ssize_t(3)});
-  d["weights"] =
-      face.weights.empty() ? py::object(py::none()) : grid(face.weights, face.poles_u, face.poles_v);
+  const py::ssize_t nu = py::ssize_t(face.poles_u), nv = py::ssize_t(face.poles_v);
+  py::object weights = py::none();
+  if (!face.weights.empty()) weights = to_array(face.weights).reshape({nu, nv});
   py::list loops;
-  for (const auto& loop : face.trim_loops) loops.append(from_vectors(loop));
-  d["trim_loops"] = loops;
-  d["reversed"] = face.reversed;
-  d["deviation_mm"] = face.deviation_mm;
-  return d;
+  for (const auto& loop : face.trim_loops) loops.append(to_array(loop));
+  return table({{"name", py::cast(face.name)},
+                {"kind", py::cast(face.kind)},
+                {"degree_u", py::cast(face.degree_u)},
+                {"degree_v", py::cast(face.degree_v)},
+                {"knots_u", to_array(face.knots_u)},
+                {"knots_v", to_array(face.knots_v)},
+                {"poles", to_array(face.poles).reshape({nu, nv, py::ssize_t(3)})},
+                {"weights", weights},
+                {"trim_loops", loops},
+                {"reversed", py::cast(face.reversed)},
+                {"deviation_mm", py::cast(face.deviation_mm)}});
 }
 
 py::list to_dicts(const std::vector<FaceArrays>& faces) {
@@ -55,8 +50,8 @@ FaceArrays surface_arrays(int degree_u,
   FaceArrays face;
   face.degree_u = degree_u;
   face.degree_v = degree_v;
-  face.knots_u = to_doubles(knots_u, "knots_u");
-  face.knots_v = to_doubles(knots_v, "knots_v");
+  face.knots_u = to_scalars(knots_u, "knots_u");
+  face.knots_v = to_scalars(knots_v, "knots_v");
   face.poles_u = std::size_t(poles.shape(0));
   face.poles_v = std::size_t(poles.shape(1));
   face.poles = to_vectors<Vec3>(poles, "poles");
@@ -80,23 +75,17 @@ FaceArrays from_dict(const py::dict& d) {
 }
 
 py::list read_file(const std::string& path, double chord_mm) {
-  std::vector<FaceArrays> faces;
-  {
-    const py::gil_scoped_release release;
+  return to_dicts(without_gil([&] {
     const TopoDS_Shape shape = occt::read_shape(path);
-    faces = occt::translating_failures(path, [&] { return occt::face_arrays(shape, chord_mm); });
-  }
-  return to_dicts(faces);
+    return occt::translating_failures(path, [&] { return occt::face_arrays(shape, chord_mm); });
+  }));
 }
 
 py::list read_brep_string(const std::string& text, double chord_mm) {
-  std::vector<FaceArrays> faces;
-  {
-    const py::gil_scoped_release release;
+  return to_dicts(without_gil([&] {
     const TopoDS_Shape shape = occt::read_brep_text(text);
-    faces = occt::translating_failures("BREP text", [&] { return occt::face_arrays(shape, chord_mm); });
-  }
-  return to_dicts(faces);
+    return occt::translating_failures("BREP text", [&] { return occt::face_arrays(shape, chord_mm); });
+  }));
 }
 
 TopoDS_Shape compound_of(const std::vector<FaceArrays>& faces) {
@@ -114,8 +103,9 @@ void write_step(const std::string& path, const std::vector<py::dict>& dicts, con
   require(!dicts.empty(), "faces: need at least one");
   std::vector<FaceArrays> faces;
   for (const py::dict& d : dicts) faces.push_back(from_dict(d));
-  const py::gil_scoped_release release;
-  occt::write_step(occt::translating_failures("faces", [&] { return compound_of(faces); }), path, name);
+  without_gil([&] {
+    occt::write_step(occt::translating_failures("faces", [&] { return compound_of(faces); }), path, name);
+  });
 }
 
 void evaluate_into(const Geom_BSplineSurface& surface, double u, double v, double* out) {
@@ -157,14 +147,9 @@ PYBIND11_MODULE(_occt, m) {
         &read_file,
         py::arg("path"),
         py::arg("chord_mm") = kDefaultChord_mm,
-        "All faces of a STEP, IGES or BREP file as dictionaries: name (Face1, ... in FreeCAD's order), kind, "
-        "degree_u,\n"
-        "degree_v, knots_u, knots_v (flat), poles (nu, nv, 3) in mm with the placement applied, weights (nu, "
-        "nv) or None,\n"
-        "trim_loops (list of closed polygons (N, 2) in (u, v), within chord_mm of the trimming curves; "
-        "empty: untrimmed),\n"
-        "reversed (the material lies on the side of Su x Sv), deviation_mm (0: exact). ValueError names file "
-        "and face.");
+        "All faces of a STEP, IGES or BREP file as B-spline surfaces with trim loops within chord_mm of the "
+        "trimming "
+        "curves. ValueError names file and face.");
   m.def("read_brep_string",
         &read_brep_string,
         py::arg("text"),

@@ -28,9 +28,15 @@ void expect_sound(const SurfaceModel& model, const Tool& tool, const std::vector
     const Certificate c = certify_pose(tree, tool, pose, {});
     EXPECT_GE(found, c.lo) << pose.torus_center.transpose();
     EXPECT_LE(c.lo, c.hi);
-    if (c.verdict == Verdict::free) EXPECT_GE(found, -kTolerance);
-    if (c.verdict == Verdict::gouge) EXPECT_LT(signed_distance(tool, pose, c.witness.s), -kTolerance);
-    if (found < -2 * kTolerance) EXPECT_NE(c.verdict, Verdict::free);
+    if (c.verdict == Verdict::free) {
+      EXPECT_GE(found, -kTolerance);
+    }
+    if (c.verdict == Verdict::gouge) {
+      EXPECT_LT(signed_distance(tool, pose, c.witness.s), -kTolerance);
+    }
+    if (found < -2 * kTolerance) {
+      EXPECT_NE(c.verdict, Verdict::free);
+    }
     proven += c.verdict == Verdict::free;
   }
   EXPECT_GT(proven, 0);

@@ -93,7 +93,9 @@ TEST(ContactSpacing, AWholePassHasItAndMovesEvenly) {
     EXPECT_NEAR((one.second_contact - one.first_contact).norm(), 10, 0.1);
     EXPECT_GE(one.clearance_lo, -0.001);
     // On this smooth ground the spin follows the pass; a change of sides would shift the tip by millimetres.
-    if (i > 0) EXPECT_LT((one.pose.torus_center - found.placed.positions[i - 1].pose.torus_center).norm(), 3);
+    if (i > 0) {
+      EXPECT_LT((one.pose.torus_center - found.placed.positions[i - 1].pose.torus_center).norm(), 3);
+    }
   }
 }
 

@@ -86,8 +86,9 @@ TEST_P(OnThesisSurface, ExactNeverTiltsLessThanVcrfWhereVcrfIsFree) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     const bool same_contact =
         (exact.positions[i].first_contact - vcrf.positions[i].first_contact).norm() < 0.01;
-    if (same_contact && vcrf.positions[i].clearance_hi > -1e-5)
+    if (same_contact && vcrf.positions[i].clearance_hi > -1e-5) {
       EXPECT_GT(exact.positions[i].tilt, vcrf.positions[i].tilt - radians(0.03)) << points[i].transpose();
+    }
   }
 }
 

@@ -4,12 +4,13 @@ import numpy as np
 import pytest
 from machine_samples import directions, with_rotary
 
+from freecad_mpm import _core
 from freecad_mpm.core import machine as machines
 from freecad_mpm.core.control import kinematics
 
 TIP_TOLERANCE_MM = AXIS_TOLERANCE = 1e-9
 ORIGIN, LENGTH = (12.0, -7.0, 55.0), 160.0
-SETUP = {"part_origin_mm": ORIGIN, "tool_length_mm": LENGTH}
+SETUP = _core.PartSetup(part_origin_mm=ORIGIN, tool_length_mm=LENGTH)
 COUNT = 500
 
 SINE_45 = np.sqrt(0.5)
@@ -78,7 +79,7 @@ def test_every_shipped_machine_has_a_closed_form_here():
 @pytest.mark.parametrize("name", machines.names())
 def test_the_tool_axis_is_that_of_the_arrangement(name):
     rotary = random_readings(np.random.default_rng(1))
-    _, axis = machines.load(name).chain().forward(np.zeros((COUNT, 3)), rotary, **SETUP)
+    _, axis = machines.load(name).chain().forward(np.zeros((COUNT, 3)), rotary, setup=SETUP)
     assert np.abs(axis - CLOSED_FORM[name](*rotary.T)).max() < AXIS_TOLERANCE
 
 
@@ -106,12 +107,12 @@ def test_a_measured_machine_is_inverted_as_exactly(name):
 def assert_round_trip(machine):
     tip, axis = random_poses(np.random.default_rng(3))
     chain = machine.chain()
-    solved = chain.inverse(tip, axis, **SETUP)
+    solved = chain.inverse(tip, axis, setup=SETUP)
     reached = solved["reachable"]
     assert np.count_nonzero(reached) > 0.9 * COUNT
     for branch in (0, 1):
         linear, rotary = solved["linear_mm"][:, branch], solved["rotary_deg"][:, branch]
-        tip_back, axis_back = chain.forward(linear, rotary, **SETUP)
+        tip_back, axis_back = chain.forward(linear, rotary, setup=SETUP)
         assert np.abs(tip_back - tip).max() < TIP_TOLERANCE_MM
         assert np.abs(axis_back - axis)[reached].max() < AXIS_TOLERANCE
         # the checks' own kinematics, written apart
@@ -135,6 +136,6 @@ def test_a_turned_sense_is_noticed(name):
 def test_45_degree_axes_lag_as_published():
     """Tilt 10 degrees: B = 14.16, C lags by 5.02 degrees; tilt 45: B = 65.53, C lags by 24.47."""
     axis = directions(np.array([10.0, 45.0]), np.zeros(2))
-    solved = machines.load("nutating_table_bc").chain().inverse(np.zeros((2, 3)), axis, **SETUP)
+    solved = machines.load("nutating_table_bc").chain().inverse(np.zeros((2, 3)), axis, setup=SETUP)
     positive = solved["rotary_deg"][np.arange(2), np.argmax(solved["rotary_deg"][:, :, 1], axis=1)]
     assert np.abs(positive - [[-5.02, 14.16], [-24.47, 65.53]]).max() < 0.01

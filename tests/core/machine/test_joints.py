@@ -12,6 +12,7 @@ from freecad_mpm.core.job.budget import axis_tolerance_deg
 from freecad_mpm.core.machine import joint_path
 
 ORIGIN, LENGTH = (30.0, -40.0, 120.0), 137.0
+SETUP = _core.PartSetup(part_origin_mm=ORIGIN, tool_length_mm=LENGTH)
 
 
 def crooked_machine():
@@ -45,12 +46,12 @@ def test_both_solutions_of_random_poses_go_round(make):
     machine, random = make(), np.random.default_rng(4)
     tip = random.uniform(-100, 100, (500, 3))
     axis = directions(random.uniform(3, 80, 500), random.uniform(-180, 180, 500))
-    chain, setup = machine.chain(), dict(part_origin_mm=ORIGIN, tool_length_mm=LENGTH)
-    solutions = chain.inverse(tip, axis, **setup)
+    chain = machine.chain()
+    solutions = chain.inverse(tip, axis, setup=SETUP)
     assert solutions["reachable"].all()
     for k in range(2):
         back_tip, back_axis = chain.forward(
-            solutions["linear_mm"][:, k], solutions["rotary_deg"][:, k], **setup
+            solutions["linear_mm"][:, k], solutions["rotary_deg"][:, k], setup=SETUP
         )
         assert np.abs(back_tip - tip).max() < 1e-9
         assert np.abs(back_axis - axis).max() < 1e-12
@@ -61,7 +62,7 @@ def test_numpy_kinematics_of_the_checks_agree_with_the_native(make):
     machine, random = make(), np.random.default_rng(5)
     angles = random.uniform(-720, 720, (300, 2))
     linear = random.uniform(-300, 300, (300, 3))
-    tip, axis = machine.chain().forward(linear, angles, part_origin_mm=ORIGIN, tool_length_mm=LENGTH)
+    tip, axis = machine.chain().forward(linear, angles, setup=SETUP)
     assert np.abs(kinematics.tool_axes(machine, angles) - axis).max() < 1e-12
     assert (
         np.abs(kinematics.linear_readings(machine, tip, angles, np.array(ORIGIN), LENGTH) - linear).max()
@@ -86,7 +87,7 @@ def test_given_poses_are_kept_in_order_and_met():
     assert path.source[last].tolist() == list(range(len(kind)))
     assert (path.tip[last] == tip).all()
     assert (
-        kinematics.angles_between_deg(kinematics.tool_axes(dmu80p(), path.angles_deg), path.axis).max() < 1e-9
+        kinematics.angles_between_deg(kinematics.tool_axes(dmu80p(), path.rotary_deg), path.axis).max() < 1e-9
     )
     assert path.troubles() == []
 
@@ -95,8 +96,8 @@ def test_table_unwinds_over_the_seam_and_steps_stay_small():
     kind, tip, axis, feed = two_passes()
     path = joint_path(dmu80p(), kind, tip, axis, feed, axis_tolerance_deg=0.02)
     cuts = path.kind[1:] == "cut"
-    assert np.abs(np.diff(path.angles_deg, axis=0))[cuts].max() <= dmu80p().kinematics.max_rotary_step_deg
-    assert np.ptp(path.angles_deg[:, 0]) > 360
+    assert np.abs(np.diff(path.rotary_deg, axis=0))[cuts].max() <= dmu80p().kinematics.max_rotary_step_deg
+    assert np.ptp(path.rotary_deg[:, 0]) > 360
 
 
 @pytest.mark.parametrize("rise", [-10.0, 0.0, 10.0])
@@ -105,7 +106,7 @@ def test_rapids_turn_with_the_tip_held_at_their_higher_end(rise):
     axis = directions([10.0, 20.0], [0.0, 90.0])
     path = joint_path(dmu80p(), np.array(["rapid"] * 2), tip, axis, np.zeros(2), axis_tolerance_deg=0.02)
     assert len(path) == 3
-    turning = np.flatnonzero(np.any(np.diff(path.angles_deg, axis=0) != 0, axis=1))
+    turning = np.flatnonzero(np.any(np.diff(path.rotary_deg, axis=0) != 0, axis=1))
     travelling = np.flatnonzero(np.any(np.diff(path.tip, axis=0) != 0, axis=1))
     assert (turning.tolist(), travelling.tolist()) == (([1], [0]) if rise > 0 else ([0], [1]))
 
@@ -126,7 +127,7 @@ def test_solution_changes_only_in_rapids_that_turn_on_the_spot():
     )  # the second pass needs a tilt over the limit: the other solution
     path = joint_path(machine, kind, tip, axis, feed, axis_tolerance_deg=0.02)
     assert path.troubles() == []
-    side = np.sign(kinematics.solution_side(machine, path.angles_deg))
+    side = np.sign(kinematics.solution_side(machine, path.rotary_deg))
     changes = np.flatnonzero(np.diff(side)) + 1
     assert len(changes) == 1 and path.kind[changes[0]] == "rapid"
     assert (path.tip[changes[0]] == path.tip[changes[0] - 1]).all()
@@ -140,7 +141,7 @@ def test_cut_through_the_pole_keeps_the_direction_within_the_cone():
     machine = with_kinematics(dmu80p(), pole_cone_deg=0.0004)
     path = joint_path(machine, kind, tip, axis, np.full(25, 1000.0), axis_tolerance_deg=0.02)
     assert path.at_pole.any()
-    off = kinematics.angles_between_deg(kinematics.tool_axes(machine, path.angles_deg), path.axis)
+    off = kinematics.angles_between_deg(kinematics.tool_axes(machine, path.rotary_deg), path.axis)
     assert off.max() <= 2 * 0.0004
     assert path.troubles() == []
 

@@ -8,11 +8,11 @@ from machine_samples import directions
 from speed import formatting_s, worked_s
 
 from freecad_mpm.core import machine as machines
-from freecad_mpm.core.machine.machine import MachineControl
 from freecad_mpm.core.base import InputError
 from freecad_mpm.core.control import kinematics
 from freecad_mpm.core.machine import joint_path, move_seconds, slowed_cuts
 from freecad_mpm.core.machine.axis_ramps import ramp_seconds, rest_to_rest_seconds
+from freecad_mpm.core.machine.machine import MachineControl
 
 # 500 mm/s and 5000 mm/s2 along X, Y and Z; 120 deg/s and 360 deg/s2 of both rotary axes
 MACHINE = "table_bc"
@@ -43,7 +43,7 @@ def moves_of(tip, axis, feed_mm_per_s, kind=None):
         np.full(count, 60.0 * feed_mm_per_s),
         axis_tolerance_deg=180.0,
     )
-    linear = kinematics.linear_readings(machine, moves.tip, moves.angles_deg, np.zeros(3), 150.0)
+    linear = kinematics.linear_readings(machine, moves.tip, moves.rotary_deg, np.zeros(3), 150.0)
     return moves, linear
 
 

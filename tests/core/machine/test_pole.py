@@ -82,7 +82,7 @@ def checked(name, distance_deg, machine=None, post="linuxcnc"):
 @pytest.mark.parametrize("name", machines.names())
 def test_the_tool_keeps_its_way_past_the_pole(name, distance_deg):
     program, result, off_deg = checked(name, distance_deg)
-    steps = np.abs(np.diff(program.moves.angles_deg, axis=0))[program.moves.kind[1:] == "cut"]
+    steps = np.abs(np.diff(program.moves.rotary_deg, axis=0))[program.moves.kind[1:] == "cut"]
     assert program.moves.troubles() == [] and result.findings == []
     assert off_deg.max() <= AXIS_TOLERANCE_DEG + ROUNDING_DEG
     assert steps.max() <= machines.load(name).kinematics.max_rotary_step_deg * (1 + 1e-9)
@@ -90,7 +90,7 @@ def test_the_tool_keeps_its_way_past_the_pole(name, distance_deg):
 
 def test_the_cut_goes_on_through_zero_where_the_tilt_may_change_its_sign():
     """Trunnions whose preference leaves both solutions open: no turn of C; else half a turn of it on the spot."""
-    turns = {name: np.ptp(checked(name, 0.0)[0].moves.angles_deg[:, 0]) for name in machines.names()}
+    turns = {name: np.ptp(checked(name, 0.0)[0].moves.rotary_deg[:, 0]) for name in machines.names()}
     through = {name for name, turn in turns.items() if turn < 1e-6}
     open_to_both = {
         name for name in machines.names() if machines.load(name).kinematics.solution_preference == "shortest"

@@ -80,7 +80,7 @@ def assert_interrupted(plan, cut):
     )  # the retract begins within the cut's chord
     # the turn itself: at the top with the tip held, or above it
     rows = np.flatnonzero((plan.joints.source > start) & (plan.joints.source < cut))
-    turn = np.abs(np.diff(plan.joints.angles_deg[:, 0]))[rows - 1]
+    turn = np.abs(np.diff(plan.joints.rotary_deg[:, 0]))[rows - 1]
     turning = rows[turn > 90.0]
     assert len(turning) == 1 and plan.joints.kind[turning[0]] == "rapid"
     assert plan.joints.tip[turning[0], 2] >= top - 1e-9

@@ -46,7 +46,7 @@ def test_the_tool_stands_where_the_path_says_on_every_machine(name):
     assert "unreachable" not in set(played.blocks.status)
     for row in range(0, len(played.blocks), 7):
         bodies = machine_motion.seen_from_part(
-            machine_motion.placements(machine, played.blocks.angles_deg[row], played.blocks.linear_mm[row])
+            machine_motion.placements(machine, played.blocks.rotary_deg[row], played.blocks.linear_mm[row])
         )
         assert bodies["tool"][:3, 3] == pytest.approx(played.blocks.tip[row], abs=1e-9)
         assert bodies["tool"][:3, 2] == pytest.approx(played.blocks.axis[row], abs=1e-9)
@@ -86,7 +86,7 @@ def test_a_place_between_two_blocks_runs_evenly(played):
     blocks = played.blocks
     moment = played.moment(20.25)
     assert moment.tip == pytest.approx(0.75 * blocks.tip[20] + 0.25 * blocks.tip[21])
-    assert moment.angles_deg == pytest.approx(0.75 * blocks.angles_deg[20] + 0.25 * blocks.angles_deg[21])
+    assert moment.rotary_deg == pytest.approx(0.75 * blocks.rotary_deg[20] + 0.25 * blocks.rotary_deg[21])
     assert moment.move == blocks.source[21]
     assert played.moment(20.0).move == blocks.source[20]
     # Evenly turning axes leave the straight line of directions by no more than the path's tolerance.

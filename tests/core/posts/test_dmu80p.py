@@ -61,7 +61,7 @@ def example(**changes):
         kind=np.array(["rapid", "plunge", "cut", "cut", "cut", "rapid"]),
         tip=np.array(TIPS, float),
         axis=np.tile((0.0, 0.0, 1.0), (6, 1)),
-        angles_deg=np.array(ANGLES),
+        rotary_deg=np.array(ANGLES),
         feed_mm_per_min=np.array([0, 1500, 2000, 2000, 2000, 0.0]),
     )
     blank = (np.array([-5.0, -5.0, -25.0]), np.array([85.0, 59.0, 25.0]))
@@ -74,7 +74,7 @@ def moves_of(count, **columns):
         kind=np.array(["rapid"] + ["cut"] * (count - 1)),
         tip=np.column_stack((np.linspace(0, 1, count), np.zeros(count), np.zeros(count))),
         axis=np.tile((0.0, 0.0, 1.0), (count, 1)),
-        angles_deg=np.zeros((count, 2)),
+        rotary_deg=np.zeros((count, 2)),
         feed_mm_per_min=np.full(count, 1000.0),
     )
     return Moves(**(rows | columns))
@@ -139,7 +139,7 @@ def test_a_program_that_is_too_long_is_refused():
 
 def test_hundred_thousand_moves_take_about_as_long_as_making_text_of_their_numbers():
     angles = np.column_stack((np.linspace(0, 3000, 100_000), np.linspace(0, 90, 100_000)))
-    program = example(moves=moves_of(100_000, angles_deg=angles))
+    program = example(moves=moves_of(100_000, rotary_deg=angles))
     assert worked_s(lambda: write(program)) < 4 * formatting_s(500_000)
 
 
@@ -191,7 +191,7 @@ def test_a_wrong_program_is_refused(change, told):
     "columns, told",
     [
         (dict(tip=np.zeros((2, 3))), r"tip: must have shape \(3, 3\)"),
-        (dict(angles_deg=np.array([[0, 0], [0, np.nan], [0, 0]])), r"angles_deg\[1\]: must be finite"),
+        (dict(rotary_deg=np.array([[0, 0], [0, np.nan], [0, 0]])), r"rotary_deg\[1\]: must be finite"),
         (dict(kind=np.array(["rapid", "dig", "cut"])), "kind: must be of .*got dig"),
         (dict(feed_mm_per_min=np.array([0.0, 0.0, 1.0])), r"feed_mm_per_min\[1\]: must be positive"),
     ],

@@ -13,6 +13,7 @@ import pytest
 from linuxcnc import MODULE_OF, TOOL_LENGTH_MM
 from machine_samples import directions, program_of, two_passes, with_rotary
 
+from freecad_mpm import _core
 from freecad_mpm.core import machine as machines
 from freecad_mpm.core import posts
 from freecad_mpm.core.control import dialects
@@ -91,7 +92,7 @@ def angle_deg(a, b):
 def test_forward_kinematics_agree(driver, name):
     machine = machines.load(name)
     linear, rotary, joints = random_joints(machine)
-    tip, axis = machine.chain().forward(linear, rotary, tool_length_mm=TOOL_LENGTH_MM)
+    tip, axis = machine.chain().forward(linear, rotary, setup=_core.PartSetup(tool_length_mm=TOOL_LENGTH_MM))
     their_tip, their_axis = linuxcnc.tip_and_axis(driver, machine, joints)
     assert np.abs(tip - their_tip).max() < TIP_MM
     assert angle_deg(axis, their_axis).max() < AXIS_DEG
@@ -101,7 +102,7 @@ def test_forward_kinematics_agree(driver, name):
 def test_inverse_kinematics_agree(driver, name):
     machine = machines.load(name)
     linear, rotary, joints = random_joints(machine)
-    tip, _ = machine.chain().forward(linear, rotary, tool_length_mm=TOOL_LENGTH_MM)
+    tip, _ = machine.chain().forward(linear, rotary, setup=_core.PartSetup(tool_length_mm=TOOL_LENGTH_MM))
     angles = dict(zip(machine.rotary_letters, rotary.T))
     abc = np.column_stack([angles.get(letter, np.zeros(JOINTS)) for letter in "ABC"])
     theirs = linuxcnc.run_module(driver, machine, "inverse", linuxcnc.pose_of(tip, abc))
@@ -114,7 +115,7 @@ def test_a_turned_sense_is_seen_in_the_axis(driver, name, index):
     machine = machines.load(name)
     linear, rotary, joints = random_joints(machine)
     turned = with_rotary(machine, index, sense=-machine.rotary_axes[index].sense).chain()
-    _, axis = turned.forward(linear, rotary, tool_length_mm=TOOL_LENGTH_MM)
+    _, axis = turned.forward(linear, rotary, setup=_core.PartSetup(tool_length_mm=TOOL_LENGTH_MM))
     assert np.median(angle_deg(axis, linuxcnc.tip_and_axis(driver, machine, joints)[1])) > 10
 
 

@@ -144,7 +144,7 @@ def test_the_feed_of_a_tnc_block_takes_as_long_as_the_tip_may():
     cuts = np.flatnonzero(moves.kind == "cut")
     minutes = np.linalg.norm(words[cuts] - words[cuts - 1], axis=1) / read.feed[rows][cuts]
     planned = np.linalg.norm(moves.tip[cuts] - moves.tip[cuts - 1], axis=1) / moves.feed_mm_per_min[cuts]
-    turn = np.abs(moves.angles_deg[cuts] - moves.angles_deg[cuts - 1]).max(axis=1)
+    turn = np.abs(moves.rotary_deg[cuts] - moves.rotary_deg[cuts - 1]).max(axis=1)
     expected = np.maximum(
         planned, turn / 7200.0
     )  # both rotary axes of the machine turn 7200 degrees a minute
@@ -161,7 +161,7 @@ def test_where_an_axis_rewinds_the_spindle_goes_up_first(post):
     read = dialects.read(posts.load(post).write(made), posts.load(post).dialect)
     result = check_program(read, machine, TIP, AXIS, CONTROL)
     assert result.findings == []
-    steps = np.abs(np.diff(made.moves.angles_deg[:, 0]))
+    steps = np.abs(np.diff(made.moves.rotary_deg[:, 0]))
     rewind = int(np.argmax(steps)) + 1
     assert steps.max() > 90.0
     top = machine.linear_axes[2].max_limit_mm - 1.0

@@ -1,6 +1,7 @@
 // Joint values over a whole path: which of the two orientation solutions where, unwound, within limits.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -34,6 +35,8 @@ enum class JointStatus : std::uint8_t {
   linear_limit,  // a linear axis leaves its limits
   forced_turn,   // the cut that ends here needs a change of solution or a rewind
 };
+inline constexpr std::array kJointStatusNames = {
+    "ok", "unreachable", "rotary_limit", "linear_limit", "forced_turn"};
 
 struct JointPath {
   std::vector<Vec2> rotary;           // readings, unwound

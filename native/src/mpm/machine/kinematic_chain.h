@@ -9,10 +9,12 @@ namespace mpm {
 
 // Names follow FreeCAD's machine model. Lengths in mm, angles in radians, velocities per second.
 enum class AxisRole { table_rotary, head_rotary };
+inline constexpr std::array kAxisRoleNames = {"table_rotary", "head_rotary"};
 
 // Which of the two orientation solutions is taken where both are within limits: the quicker one, or the one
 // whose second rotary axis (the tilt) reads the larger or the smaller value.
 enum class SolutionPreference { shortest, positive, negative };
+inline constexpr std::array kSolutionPreferenceNames = {"shortest", "positive", "negative"};
 
 // A rotary axis as ISO 841 sees it: the motion of the *tool relative to the part*. With sense +1 a positive
 // reading turns the tool, seen from the part, by the right-hand rule about `rotation_vector`; a table then

@@ -13,7 +13,7 @@ namespace mpm {
 // What a move is for. `link` is a feed move between cuts near the part; link_passes() makes none, other
 // people's files do.
 enum class MoveKind : std::uint8_t { cut, link, rapid, plunge, retract };
-inline constexpr std::array<const char*, 5> kMoveKindNames = {"cut", "link", "rapid", "plunge", "retract"};
+inline constexpr std::array kMoveKindNames = {"cut", "link", "rapid", "plunge", "retract"};
 
 // Structure of arrays, set-up frame, mm: move i takes the tip in a straight line and the axis along a great
 // circle from pose i - 1 to pose i. Move 0 has no start: it only says where the tool comes from.

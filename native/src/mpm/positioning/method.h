@@ -1,6 +1,7 @@
 // The one interface of all positioning methods. registry.h has them by name, place_all.h runs them.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -24,15 +25,15 @@ enum class PositionStatus : std::uint8_t {
   off_part,           // no face to machine under the tool
   undecided,          // the method gave up; never to be taken for free
 };
-inline constexpr const char* kPositionStatusNames[] = {"not_computed",
-                                                       "two_contacts",
-                                                       "curvature_matched",
-                                                       "tilt_limited",
-                                                       "one_contact",
-                                                       "edge_contact",
-                                                       "bridged",
-                                                       "off_part",
-                                                       "undecided"};
+inline constexpr std::array kPositionStatusNames = {"not_computed",
+                                                    "two_contacts",
+                                                    "curvature_matched",
+                                                    "tilt_limited",
+                                                    "one_contact",
+                                                    "edge_contact",
+                                                    "bridged",
+                                                    "off_part",
+                                                    "undecided"};
 
 struct Placement {
   PositionStatus status = PositionStatus::not_computed;

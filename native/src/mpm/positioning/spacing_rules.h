@@ -1,6 +1,7 @@
 // What a wanted distance of the two contacts means, and which distance a position has.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "mpm/positioning/method.h"
@@ -11,6 +12,7 @@ enum class SpacingMeasure : std::uint8_t {
   across,  // seen along the feed: what is left of Q - P without its part along `feed`
   direct,  // |Q - P|
 };
+inline constexpr std::array kSpacingMeasureNames = {"across", "direct"};
 
 struct SpacingRules {
   double wanted = 0;  // mm, positive
