@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -51,29 +52,8 @@ def facts(
 
 
 def _job_facts(job: Job) -> Facts:
-    method, footprint = job.method, job.footprint
-    return {
-        "source": job.source,
-        "part": job.part.file,
-        "faces": list(job.part.faces) or "all",
-        "tool": job.tool.describe(),
-        "footprint": {
-            "pattern": footprint.pattern,
-            "direction_deg": footprint.direction_deg,
-            "side_step_mm": footprint.side_step_mm,
-            "forward_step_mm": footprint.forward_step_mm,
-            "zigzag": footprint.zigzag,
-        },
-        "method": method.name,
-        "options": dict(method.options),
-        "tilt_max_deg": method.tilt_max_deg,
-        "spin_deg": method.spin_deg,
-        "contact_spacing_mm": method.contact_spacing_mm,
-        "gouge_tolerance_mm": job.tolerance.gouge_mm,
-        "chord_tolerance_mm": job.tolerance.chord_mm,
-        "machine": job.machine.name,
-        "post": job.post.name,
-    }
+    """Every key of every table, and where the job came from."""
+    return asdict(job)
 
 
 def _position_facts(job: Job, positions: Positions, guarantee: str) -> Facts:
