@@ -8,12 +8,15 @@ from collections.abc import Iterable
 from dataclasses import asdict
 from pathlib import Path
 
+import numpy as np
 import pytest
+from test_cutting import plane, scene_of
 
 from freecad_mpm.core import job
-from freecad_mpm.core.base import Key, pages, values
+from freecad_mpm.core.base import Key, Stages, pages, values
 from freecad_mpm.core.base.tables import ENDINGS
 from freecad_mpm.core.job import KEYS, FootprintSpec, Job, Part, Segment, ToolSpec, words
+from freecad_mpm.core.positioning import lay_out
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs/job-file.md"
@@ -87,3 +90,12 @@ def test_a_report_says_every_value_of_a_job() -> None:
     text = "\n".join(words.job_lines(asdict(made)))
     assert "side step 5 mm" in text and "margin -1.5 mm, allow gaps yes" in text
     assert all(one.label in text for one in KEYS.values() if one.default not in ((), {}, ""))
+
+
+@pytest.mark.parametrize("margin", [5.0, -5.0])
+def test_the_margin_is_what_its_words_say(margin: float) -> None:
+    """Beyond the faces, or inside the rectangle round them."""
+    made = Job(Part("flat"), ToolSpec(4, 1), footprint=FootprintSpec(side_step_mm=10, margin_mm=margin))
+    points = lay_out(made, scene_of(plane(0.0)), Stages()).points
+    flat = np.ptp(points, axis=0)
+    assert flat == pytest.approx(40 + 2 * margin) and points.mean(axis=0) == pytest.approx([20, 20])

@@ -66,7 +66,7 @@ class FootprintSpec(Table):
     margin_mm: float = key(
         values.number("mm"),
         0.0,
-        "How far the passes reach beyond the faces, seen from above; negative: how far they stay inside",
+        "How far the passes reach beyond the faces, seen from above; negative: inside the rectangle round them",
     )
     allow_gaps: bool = key(
         values.flag, False, "The plan is good although it leaves out cuts between neighbouring positions"
