@@ -8,7 +8,7 @@ from typing import Any
 import FreeCAD
 
 from ..core.base import TOOLS, Cancelled, InputError
-from ..core.job import DEFAULT_POST, ToolSpec
+from ..core.job import DEFAULT_POST, PostSpec, ToolSpec
 from ..core.job import tool as tools
 from . import compat, hooks, properties
 from .computation import require_native
@@ -17,10 +17,8 @@ from .operation import CANCELLED, create_operation
 from .posts import register
 
 OPERATION = "MultiPointFinish"
-# Feeds of a tool controller made here; CAM's own start at zero, with which nothing moves.
-CUT_FEED = "1000 mm/min"
-PLUNGE_FEED = "300 mm/min"
-SPINDLE_RPM = 8000.0
+# Feeds and speed of a tool controller made here; CAM's own start at zero, with which nothing moves.
+USUAL = PostSpec()
 # The shipped tool that is taken when neither the caller nor the job has one.
 DEFAULT_TOOL = "thesis"
 # A tool bit keeps its diameter and flat radius in decimals; radii this near are the same tool.
@@ -152,7 +150,9 @@ def _make_controller(job: Any, tool: ToolSpec) -> Any:
     bit.Length = tool.flute_length_mm + sum(one.length_mm for one in tool.shank)
     bit.ShankDiameter = 2 * (tool.shank[0].bottom_radius_mm if tool.shank else tool.radius_mm)
     controller = compat.controller.Create(f"TC: {label}", tool=bit, toolNumber=job.Proxy.nextToolNumber())
-    controller.HorizFeed, controller.VertFeed, controller.SpindleSpeed = CUT_FEED, PLUNGE_FEED, SPINDLE_RPM
+    controller.HorizFeed = f"{USUAL.cut_feed_mm_per_min} mm/min"
+    controller.VertFeed = f"{USUAL.plunge_feed_mm_per_min} mm/min"
+    controller.SpindleSpeed = USUAL.spindle_rpm
     job.Proxy.addToolController(controller)
     return controller
 

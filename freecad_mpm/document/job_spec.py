@@ -8,29 +8,12 @@ from typing import Any
 
 from ..core import job
 from ..core.base import InputError
-from ..core.job import Segment
+from ..core.job import KEYS, Segment
 from . import compat
+from .properties import settings
 
 # The job's part comes from the document, not from a file; the name is what messages and reports show.
 PART_NAME = "{document}: {operation}"
-# The core's keys -> the properties they come from.
-PROPERTY_OF = {
-    "[method] name": "Method",
-    "[method] spin_deg": "Spin",
-    "[method] contact_spacing_mm": "ContactSpacing",
-    "[method] tilt_max_deg": "TiltMax",
-    "[footprint] direction_deg": "Direction",
-    "[footprint] side_step_mm": "SideStep",
-    "[footprint] forward_step_mm": "ForwardStep",
-    "[footprint] steps": "SideStep, ForwardStep",
-    "[footprint] margin_mm": "Margin",
-    "[link] safe_clearance_mm": "SafeClearance",
-    "[link] approach_distance_mm": "ApproachDistance",
-    "[tool] recess_mm": "Recess",
-    "[tool] flute_length_mm": "the tool's CuttingEdgeHeight",
-    "[tolerance] gouge_mm": "GougeTolerance",
-    "[tolerance] chord_mm": "ChordTolerance",
-}
 SECONDS_PER_MINUTE = 60.0
 PROGRAM_NAME = "MPM{number:02d}"
 
@@ -41,25 +24,13 @@ def job_of(op: Any, machined: Sequence[str], check: Sequence[str]) -> job.Job:
     The set-up frame is FreeCAD's global frame, as in all of CAM. Raises InputError naming the property or the tool.
     """
     name = PART_NAME.format(document=op.Document.Label, operation=op.Label)
-    return job.Job(
-        part=job.Part(file=name, faces=tuple(machined), check_faces=tuple(check)),
-        tool=tool_of(op),
-        footprint=_footprint(op),
-        method=job.MethodSpec(
-            name=op.Method,
-            spin_deg=op.Spin.Value,
-            contact_spacing_mm=op.ContactSpacing.Value,
-            spacing_measure=op.SpacingMeasure,
-            tilt_max_deg=op.TiltMax.Value,
-        ),
-        link=job.LinkSpec(
-            safe_clearance_mm=op.SafeClearance.Value, approach_distance_mm=op.ApproachDistance.Value
-        ),
-        tolerance=job.Tolerance(gouge_mm=op.GougeTolerance.Value, chord_mm=op.ChordTolerance.Value),
-        machine=job.MachineSpec(name=op.Machine),
-        post=post_of(op),
-        source=op.Label,
-    )
+    made: dict[str, Any] = {
+        "part": job.Part(file=name, faces=tuple(machined), check_faces=tuple(check)),
+        "tool": tool_of(op),
+        "post": post_of(op),
+    }
+    others: dict[str, Any] = {table: _table(op, table) for table in job.SECTIONS if table not in made}
+    return job.Job(**made, **others, source=op.Label)
 
 
 def tool_of(op: Any) -> job.ToolSpec:
@@ -69,10 +40,11 @@ def tool_of(op: Any) -> job.ToolSpec:
         radius, corner = compat.torus_of(bit)
     except ValueError as error:
         raise InputError(str(error)) from None
-    return job.ToolSpec(
+    return _table(
+        op,
+        job.ToolSpec.table,
         major_radius_mm=radius - corner,
         minor_radius_mm=corner,
-        recess_mm=op.Recess.Value,
         flute_length_mm=_length(bit, "CuttingEdgeHeight"),
         shank=_shank(bit),
         name=bit.Label,
@@ -87,31 +59,25 @@ def post_of(op: Any) -> job.PostSpec:
         "cut_feed_mm_per_min": controller.HorizFeed.Value * SECONDS_PER_MINUTE,
         "plunge_feed_mm_per_min": controller.VertFeed.Value * SECONDS_PER_MINUTE,
     }
-    return job.PostSpec(
-        name=op.Post,
+    return _table(
+        op,
+        job.PostSpec.table,
         program_name=PROGRAM_NAME.format(number=_number_in(op.Name)),
         tool_number=controller.ToolNumber,
         **{name: value for name, value in given.items() if value > 0},
     )
 
 
-def in_property_names(message: str, op: Any) -> str:
-    """A message of the core about operation `op` with the properties' names instead of its own keys."""
-    message = message.removeprefix(f"{op.Label}: ")  # the source of its job
-    for key, name in PROPERTY_OF.items():
-        message = message.replace(key, name)
-    return message
+def _table(op: Any, table: str, **others: Any) -> Any:
+    """A table of the job from the operation's properties, and what comes from elsewhere."""
+    own = [(KEYS[one.key], one.name) for one in settings()]
+    values = {key.name: plain(getattr(op, name)) for key, name in own if key.table == table}
+    return job.SECTIONS[table](**values, **others)
 
 
-def _footprint(op: Any) -> job.FootprintSpec:
-    return job.FootprintSpec(
-        direction_deg=op.Direction.Value,
-        side_step_mm=op.SideStep.Value,
-        forward_step_mm=op.ForwardStep.Value,
-        zigzag=op.ZigZag,
-        margin_mm=op.Margin.Value,
-        allow_gaps=op.AllowGaps,
-    )
+def plain(value: Any) -> Any:
+    """A property's value as the core takes it: a quantity as its number of mm or degrees."""
+    return value.Value if hasattr(value, "Value") else value
 
 
 def _shank(bit: Any) -> tuple[Segment, ...]:

@@ -11,7 +11,7 @@ from ..core.base import Cancelled, InputError, one_line
 from . import compat, properties, results
 from .cl_path import Feeds, to_commands
 from .computation import NativeModuleMissing, compute
-from .job_spec import in_property_names
+from .messages import in_property_names
 
 # What Problem says after the user stopped the computation.
 CANCELLED = "cancelled"
@@ -53,7 +53,7 @@ class MultiPointFinish(compat.Stateless, compat.op_base.ObjectOp):
 
 def _problem(obj: Any, error: Exception) -> str:
     if isinstance(error, InputError):
-        return in_property_names(str(error), obj)
+        return in_property_names(str(error)).removeprefix(f"{obj.Label}: ")
     return (
         CANCELLED
         if isinstance(error, Cancelled)

@@ -12,6 +12,7 @@ from ..core.base import Floats, write_together
 from . import compat, program
 from .computation import require_native
 from .job_spec import job_of, tool_of
+from .messages import property_names
 from .model import model_faces
 from .results import NO_STATUS
 
@@ -30,6 +31,7 @@ class Played:
     part_box: tuple[Floats, Floats]
 
 
+@property_names()
 def played(op: Any) -> Played:
     """The playback of an operation on its own machine. Raises InputError when it has no up-to-date path."""
     require_native()

@@ -18,6 +18,7 @@ from ..core.posts import ProgramTool
 from ..core.program import ProgramPart, Shop, find_shop, make_program
 from . import cl_path, compat, three_axis
 from .job_spec import job_of, post_of
+from .messages import property_names
 from .operation import is_operation
 from .post_arguments import PostArguments, parse
 
@@ -48,6 +49,7 @@ def default_name(op: Any) -> str:
     return post_of(op).program_name + posts.load(op.Post).file_ending
 
 
+@property_names()
 def program_text(ops: Sequence[Any], post: str, arguments: str = "") -> ProgramText:
     """The program of operations of one job, one after the other: ours, and CAM's own three-axis ones between them.
     Machine and set-up are those of the first of ours; arguments: of the post, as post_arguments.py has them.

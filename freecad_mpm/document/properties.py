@@ -1,17 +1,33 @@
-"""The operation's properties: one table with type, group, default and the words the property editor shows."""
+"""The operation's properties in one table. Those that the user sets follow from the job's keys.
+
+To add one: a line with `setting`; the key that it is of says type, group, words, default and choices."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ..core.job import ACROSS, DEFAULT_MACHINE, DEFAULT_METHOD, DEFAULT_POST, DIRECT
+from ..core.base import Check
+from ..core.job import KEYS
 
 # Raised when the meaning of a stored property changes; `migrate` then turns older documents into the new form.
 SCHEMA_VERSION = 1
 
 READ_ONLY, HIDDEN = 1, 2
+
+Choices = Callable[[], Sequence[str]]
+
+# Table of the job -> group in the property editor.
+GROUPS = {
+    "method": "Method",
+    "footprint": "Footprint",
+    "link": "Links",
+    "tool": "Cutter",
+    "tolerance": "Tolerance",
+    "machine": "Program",
+    "post": "Program",
+}
 
 
 @dataclass(frozen=True)
@@ -21,8 +37,28 @@ class Property:
     group: str
     doc: str
     default: Any = None
-    choices: Callable[[], list[str]] | None = None
+    choices: Choices | None = None
     mode: int = 0
+    key: str = ""  # of the job, where it is the user's to set
+
+
+def setting(name: str, full_name: str, choices: Choices | None = None) -> Property:
+    """The property of a key of the job. choices: names that only the core knows."""
+    key = KEYS[full_name]
+    known = choices or ((lambda: key.check.choices) if key.check.choices else None)
+    kind = "Enumeration" if known else type_of(key.check)
+    return Property(name, kind, GROUPS[key.table], key.words, key.default, known, key=full_name)
+
+
+def type_of(check: Check) -> str:
+    """FreeCAD's type for values that pass the check; its lengths are not negative, its distances may be."""
+    if check.kind is bool:
+        return "Bool"
+    if check.unit == "degrees":
+        return "Angle"
+    if check.unit == "mm":
+        return "Length" if check.low >= 0 else "Distance"
+    raise ValueError(f"FreeCAD has no type here for {check.what}")
 
 
 # The choices come from the core, imported only when a property is made: a document must open without the native module.
@@ -45,68 +81,24 @@ def _posts() -> list[str]:
 
 
 PROPERTIES = (
-    Property("Method", "Enumeration", "Method", "How each tool position is found", DEFAULT_METHOD, _methods),
-    Property(
-        "Spin",
-        "Angle",
-        "Method",
-        "Turn of the tilt direction about the vertical, from the feed direction",
-        0.0,
-    ),
-    Property(
-        "ContactSpacing",
-        "Length",
-        "Method",
-        "Distance of the two contacts, kept along the passes by the spin of each position; 0: Spin is the same for all",
-        0.0,
-    ),
-    Property(
-        "SpacingMeasure",
-        "Enumeration",
-        "Method",
-        "How the distance of the contacts is measured: across the feed, or direct from one to the other",
-        ACROSS,
-        lambda: [ACROSS, DIRECT],
-    ),
-    Property("TiltMax", "Angle", "Method", "Largest angle between the tool axis and the vertical", 45.0),
-    Property("Direction", "Angle", "Footprint", "Feed direction in the XY plane, from the X axis", 90.0),
-    Property("SideStep", "Length", "Footprint", "Distance between neighbouring passes, seen from above", 5.0),
-    Property(
-        "ForwardStep", "Length", "Footprint", "Distance between positions along a pass, seen from above", 2.0
-    ),
-    Property("ZigZag", "Bool", "Footprint", "Cut every second pass in the opposite direction", False),
-    Property(
-        "Margin", "Distance", "Footprint", "Distance kept from the outline of the faces, seen from above", 0.0
-    ),
-    Property(
-        "AllowGaps",
-        "Bool",
-        "Footprint",
-        "The plan is good although it leaves out cuts between neighbouring positions",
-        False,
-    ),
-    Property(
-        "SafeClearance", "Length", "Links", "Between the part and the whole tool on the safe plane", 5.0
-    ),
-    Property("ApproachDistance", "Length", "Links", "How near to the part a rapid may come", 2.0),
-    Property("Recess", "Length", "Cutter", "Depth of the hollow in the cutter's bottom; 0: flat bottom", 0.0),
-    Property("GougeTolerance", "Length", "Tolerance", "Depth by which the cutter may enter a face", 0.001),
-    Property(
-        "ChordTolerance",
-        "Length",
-        "Tolerance",
-        "Distance between the true path and the straight moves of machine and model",
-        0.01,
-    ),
-    Property(
-        "Machine",
-        "Enumeration",
-        "Program",
-        "The machine the joint values are computed for",
-        DEFAULT_MACHINE,
-        _machines,
-    ),
-    Property("Post", "Enumeration", "Program", "The form of the program text", DEFAULT_POST, _posts),
+    setting("Method", "method.name", _methods),
+    setting("Spin", "method.spin_deg"),
+    setting("ContactSpacing", "method.contact_spacing_mm"),
+    setting("SpacingMeasure", "method.spacing_measure"),
+    setting("TiltMax", "method.tilt_max_deg"),
+    setting("Direction", "footprint.direction_deg"),
+    setting("SideStep", "footprint.side_step_mm"),
+    setting("ForwardStep", "footprint.forward_step_mm"),
+    setting("ZigZag", "footprint.zigzag"),
+    setting("Margin", "footprint.margin_mm"),
+    setting("AllowGaps", "footprint.allow_gaps"),
+    setting("SafeClearance", "link.safe_clearance_mm"),
+    setting("ApproachDistance", "link.approach_distance_mm"),
+    setting("Recess", "tool.recess_mm"),
+    setting("GougeTolerance", "tolerance.gouge_mm"),
+    setting("ChordTolerance", "tolerance.chord_mm"),
+    setting("Machine", "machine.name", _machines),
+    setting("Post", "post.name", _posts),
     Property("Verdict", "String", "Result", "Whether the plan is good, in one line", "", mode=READ_ONLY),
     Property(
         "Good",
@@ -164,7 +156,7 @@ PROPERTIES = (
 
 def settings() -> list[Property]:
     """The properties that are the user's to set."""
-    return [one for one in PROPERTIES if not one.mode]
+    return [one for one in PROPERTIES if one.key]
 
 
 def add_missing(obj: Any) -> None:
@@ -179,5 +171,5 @@ def add_missing(obj: Any) -> None:
 
 def _set_default(obj: Any, one: Property) -> None:
     if one.choices is not None:
-        setattr(obj, one.name, one.choices())
+        setattr(obj, one.name, list(one.choices()))
     setattr(obj, one.name, one.default)

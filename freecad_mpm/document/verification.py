@@ -19,6 +19,7 @@ from ..core.base import Floats, Integers, blame, write_atomically
 from . import compat, hooks, program
 from .computation import require_native
 from .job_spec import job_of
+from .messages import property_names
 from .model import model_faces
 from .properties import HIDDEN, READ_ONLY, Property
 
@@ -138,6 +139,7 @@ def add_missing(obj: Any) -> None:
         obj.setEditorMode(one.name, one.mode)
 
 
+@property_names()
 def verify(op: Any, resolution_mm: float | None = None) -> Any:
     """Cut the operation's path into stock and return the result object: the operation's own, made when it has none.
 

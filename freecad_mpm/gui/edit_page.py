@@ -9,6 +9,7 @@ from typing import Any
 from PySide import QtGui
 
 from ..document import compat, properties
+from ..document.job_spec import plain
 from . import panels
 
 QUANTITY_UNITS = {"Length": "mm", "Distance": "mm", "Angle": "deg"}
@@ -27,12 +28,12 @@ class Field:
 
     def to_property(self, obj: Any) -> None:
         """Assign only what differs: an assignment makes the operation recompute."""
-        if self.read() != _plain(getattr(obj, self.name)):
+        if self.read() != plain(getattr(obj, self.name)):
             setattr(obj, self.name, self.read())
 
     def from_property(self, obj: Any) -> None:
         self.widget.blockSignals(True)
-        self.write(_plain(getattr(obj, self.name)))
+        self.write(plain(getattr(obj, self.name)))
         self.widget.blockSignals(False)
 
 
@@ -114,11 +115,6 @@ def _choice_field(obj: Any, one: properties.Property) -> Field:
 def _flag_field(one: properties.Property) -> Field:
     box = QtGui.QCheckBox()
     return Field(one.name, box, box.isChecked, box.setChecked, box.toggled)
-
-
-def _plain(value: Any) -> Any:
-    """A quantity as the number its spin box holds."""
-    return value.Value if hasattr(value, "Value") else value
 
 
 def _words(name: str) -> str:

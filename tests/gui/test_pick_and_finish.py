@@ -180,7 +180,7 @@ def test_a_value_typed_into_the_page_recomputes(window: FreeCADWindow, part: Non
     press_in_panel(window, "Ok")
     assert window.run("result = op.ForwardStep.Value") == 12.7
     # Not the number of positions: with longer steps more are put in between.
-    assert "8 mm forward" in before and "12.7 mm forward" in window.run("result = op.Report")
+    assert "forward step 8 mm" in before and "forward step 12.7 mm" in window.run("result = op.Report")
 
 
 def test_cancel_in_the_page_changes_nothing(window: FreeCADWindow, part: None) -> None:

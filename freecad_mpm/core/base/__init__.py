@@ -11,7 +11,7 @@ from .errors import Cancelled, InputError, blame, one_line
 from .output import write_atomically, write_together
 from .resources import EXAMPLES, FORMS, MACHINES, RESOURCES, TOOLS
 from .stages import Cancel, Progress, Stages
-from .tables import Table, key, read_toml, suggestion
+from .tables import Key, Table, key, read_toml, suggestion
 from .values import (
     Check,
     Vector,
@@ -37,6 +37,7 @@ __all__ = [
     "Floats",
     "InputError",
     "Integers",
+    "Key",
     "MACHINES",
     "Names",
     "Progress",

@@ -1,12 +1,13 @@
-"""`Section`: a frozen dataclass that is one table of a TOML file and checks itself.
+"""`Table`: a frozen dataclass that is one table of a TOML file and checks itself.
 
-Every field is made with `key(check, default)`; values are checked whether they come from a file or from a script."""
+Every field is made with `key(check, default, words)`; values are checked whether they come from a file or from a script.
+`Table.keys()` is what else follows from: pages, reports, FreeCAD's properties."""
 
 from __future__ import annotations
 
 import difflib
 from collections.abc import Iterable, Mapping
-from dataclasses import MISSING, dataclass, field, fields
+from dataclasses import MISSING, Field, dataclass, field, fields
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
@@ -18,9 +19,38 @@ from .values import Check
 S = TypeVar("S", bound="Table")
 
 
-def key(check: Check, default: Any = MISSING) -> Any:
-    """A dataclass field whose value must pass `check`; without a default it must be given."""
-    return field(default=default, metadata={"check": check})
+# How names end by the unit of their values.
+ENDINGS = {"mm": "_mm", "degrees": "_deg", "mm/min": "_mm_per_min", "turns per minute": "_rpm"}
+
+
+def key(check: Check, default: Any = MISSING, words: str = "") -> Any:
+    """A dataclass field whose value must pass `check`; without a default it must be given. words: what it is, for users,
+    in one sentence without a full stop. A default that is a function is called for each new table."""
+    metadata = {"check": check, "words": words}
+    if callable(default):
+        return field(default_factory=default, metadata=metadata)
+    return field(default=default, metadata=metadata)
+
+
+@dataclass(frozen=True)
+class Key:
+    """What is told of a key once."""
+
+    table: str
+    name: str
+    default: Any  # MISSING: it must be given
+    check: Check
+    words: str
+
+    @property
+    def full_name(self) -> str:
+        """table.name"""
+        return f"{self.table}.{self.name}"
+
+    @property
+    def label(self) -> str:
+        """The name as people say it, without its unit: side step."""
+        return self.name.removesuffix(ENDINGS.get(self.check.unit, "")).replace("_", " ")
 
 
 @dataclass(frozen=True)
@@ -38,6 +68,11 @@ class Table:
             object.__setattr__(self, one.name, value)
         self.check_together()
 
+    @classmethod
+    def keys(cls) -> tuple[Key, ...]:
+        """The keys in their order."""
+        return tuple(Key(cls.table, one.name, _default(one), **one.metadata) for one in fields(cls))
+
     def check_together(self) -> None:
         """Check what concerns several keys at once; raises `self.error(...)`."""
 
@@ -50,14 +85,18 @@ class Table:
         """Build from a TOML table; raises InputError for unknown, missing and wrong keys."""
         if not isinstance(table, Mapping):
             raise InputError(f"[{cls.table}]: must be a table, got {table!r}")
-        names = [one.name for one in fields(cls)]
+        names = [one.name for one in cls.keys()]
         for name in table:
             if name not in names:
                 raise cls.error(name, f"unknown key{suggestion(name, names)}")
-        for one in fields(cls):
-            if one.default is one.default_factory is MISSING and one.name not in table:
+        for one in cls.keys():
+            if one.default is MISSING and one.name not in table:
                 raise cls.error(one.name, "is missing")
         return cls(**table)
+
+
+def _default(one: Field[Any]) -> Any:
+    return one.default if one.default_factory is MISSING else one.default_factory()
 
 
 def suggestion(name: str, known: Iterable[str]) -> str:

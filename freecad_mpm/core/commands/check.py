@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
 
+from ..job import KEYS
 from ..program import check_file
 from .common import GOOD, NOT_GOOD
 from .console import ProgressLine
@@ -11,7 +12,7 @@ from .console import ProgressLine
 
 def arguments(parser: ArgumentParser) -> None:
     parser.add_argument("program", metavar="PROGRAM")
-    parser.add_argument("--machine", metavar="NAME", required=True, help="a shipped machine or its file")
+    parser.add_argument("--machine", metavar="NAME", required=True, help=KEYS["machine.name"].check.what)
     parser.add_argument("--post", metavar="NAME", help="whose dialect it is; default: the one it looks like")
     parser.add_argument(
         "--joints", action="store_true", help="it moves the joints: no tool-centre-point control"

@@ -2,11 +2,11 @@
 
 It opens without the native module, as documents must.
 To add a key: one line in `tables.py` with its check, default and words; one in `document/properties.py`; one where it
-is used."""
+is used. `scripts/job_page.py` then writes docs/job-file.md anew."""
 
 from __future__ import annotations
 
-from . import budget, tool
+from . import budget, tool, words
 from .budget import PROVEN, WORD_SLACK, control_deviation_deg, control_tip_deviation_mm, cut_depth_mm
 from .file import dump, load
 from .tables import (
@@ -15,6 +15,8 @@ from .tables import (
     DEFAULT_METHOD,
     DEFAULT_POST,
     DIRECT,
+    KEYS,
+    SECTIONS,
     FootprintSpec,
     Job,
     LinkSpec,
@@ -35,12 +37,14 @@ __all__ = [
     "DIRECT",
     "FootprintSpec",
     "Job",
+    "KEYS",
     "LinkSpec",
     "MachineSpec",
     "MethodSpec",
     "PROVEN",
     "Part",
     "PostSpec",
+    "SECTIONS",
     "Segment",
     "Setup",
     "Tolerance",
@@ -53,4 +57,5 @@ __all__ = [
     "dump",
     "load",
     "tool",
+    "words",
 ]

@@ -53,16 +53,17 @@ def dump(job: Job) -> str:
 
 
 def _table(section: Table) -> str:
-    lines = [f"{one.name} = {_toml(getattr(section, one.name))}" for one in fields(section)]
+    lines = [f"{one.name} = {to_toml(getattr(section, one.name))}" for one in fields(section)]
     return "\n".join([f"[{section.table}]", *lines, ""])
 
 
-def _toml(value: Any) -> str:
+def to_toml(value: Any) -> str:
+    """A value as it is written behind its key."""
     if isinstance(value, Table):
         value = {one.name: getattr(value, one.name) for one in fields(value)}
     if isinstance(value, Mapping):
-        return "{" + ", ".join(f"{_toml(str(name))} = {_toml(one)}" for name, one in value.items()) + "}"
+        return "{" + ", ".join(f"{to_toml(str(name))} = {to_toml(one)}" for name, one in value.items()) + "}"
     if isinstance(value, (list, tuple)):
-        return "[" + ", ".join(map(_toml, value)) + "]"
+        return "[" + ", ".join(map(to_toml, value)) + "]"
     # JSON's strings, numbers and booleans are TOML's too; DEL alone must be escaped in TOML.
     return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")

@@ -19,24 +19,26 @@ ACROSS, DIRECT = "across", "direct"
 
 @dataclass(frozen=True)
 class Part(Table):
-    """Which faces: those to machine (none named: all), and those to keep clear of (none named: all others)."""
+    """Which faces."""
 
     table: ClassVar[str] = "part"
 
-    file: str = key(values.path)
-    faces: tuple[str, ...] = key(values.texts, ())
-    check_faces: tuple[str, ...] = key(values.texts, ())
+    file: str = key(values.path, words="The part: STEP, IGES, BREP, or Bézier patches as text (.txt)")
+    faces: tuple[str, ...] = key(values.texts, (), "The faces to machine; none named: all")
+    check_faces: tuple[str, ...] = key(values.texts, (), "The faces to keep clear of; none named: all others")
 
 
 @dataclass(frozen=True)
 class Setup(Table):
-    """The set-up frame in the part's frame: origin (mm), z towards the spindle, x up to its part along z."""
+    """The set-up frame in the part's frame."""
 
     table: ClassVar[str] = "setup"
 
-    origin: Vector = key(values.vector, (0.0, 0.0, 0.0))
-    z: Vector = key(values.direction, (0.0, 0.0, 1.0))
-    x: Vector = key(values.direction, (1.0, 0.0, 0.0))
+    origin: Vector = key(values.vector, (0.0, 0.0, 0.0), "Its origin, mm")
+    z: Vector = key(values.direction, (0.0, 0.0, 1.0), "Its z axis, towards the spindle")
+    x: Vector = key(
+        values.direction, (1.0, 0.0, 0.0), "Its x axis, turned into the plane across z; not parallel to z"
+    )
 
     def check_together(self) -> None:
         if values.are_parallel(self.x, self.z):
@@ -45,35 +47,58 @@ class Setup(Table):
 
 @dataclass(frozen=True)
 class FootprintSpec(Table):
-    """Where in plan the tool is to stand; `direction_deg` is the feed direction from the set-up's x axis. With
-    `allow_gaps` a plan is good although it leaves out cuts between neighbours."""
+    """Where in plan the tool is to stand."""
 
     table: ClassVar[str] = "footprint"
 
-    pattern: str = key(choice("raster"), "raster")
-    direction_deg: float = key(values.number("degrees"), 90.0)
-    side_step_mm: float = key(positive("mm"), 18.0)
-    forward_step_mm: float = key(positive("mm"), 2.0)
-    zigzag: bool = key(values.flag, False)
-    margin_mm: float = key(values.number("mm"), 0.0)
-    allow_gaps: bool = key(values.flag, False)
+    pattern: str = key(choice("raster"), "raster", "How the positions lie in plan: in straight passes")
+    direction_deg: float = key(
+        values.number("degrees"),
+        90.0,
+        "Feed direction seen from above, from the x axis; the side step goes to its right",
+    )
+    # Nobody knows the faces beforehand: a fifth of the shipped cutter's diameter is fine without being slow.
+    side_step_mm: float = key(positive("mm"), 5.0, "Distance between neighbouring passes, seen from above")
+    forward_step_mm: float = key(
+        positive("mm"), 2.0, "Distance between positions along a pass, seen from above"
+    )
+    zigzag: bool = key(values.flag, False, "Cut every second pass in the opposite direction")
+    margin_mm: float = key(
+        values.number("mm"),
+        0.0,
+        "How far the passes reach beyond the faces, seen from above; negative: inside the rectangle round them",
+    )
+    allow_gaps: bool = key(
+        values.flag, False, "The plan is good although it leaves out cuts between neighbouring positions"
+    )
 
 
 @dataclass(frozen=True)
 class MethodSpec(Table):
-    """How the tool is placed: the method's name, the spin, the tilt limit, and options of its own.
-
-    With a `contact_spacing_mm` other than 0 every position gets the spin that sets its contacts so far apart.
-    """
+    """How the tool is placed."""
 
     table: ClassVar[str] = "method"
 
-    name: str = key(values.text, DEFAULT_METHOD)
-    spin_deg: float = key(between(-180, 180, "degrees"), 0.0)
-    contact_spacing_mm: float = key(not_negative("mm"), 0.0)
-    spacing_measure: str = key(choice(ACROSS, DIRECT), ACROSS)
-    tilt_max_deg: float = key(inside(0, 90, "degrees"), 45.0)
-    options: dict[str, Any] = field(default_factory=dict, metadata={"check": values.options})
+    name: str = key(values.named("the name of a method"), DEFAULT_METHOD, "How each tool position is found")
+    spin_deg: float = key(
+        between(-180, 180, "degrees"),
+        0.0,
+        "Turn of the tilt direction about the vertical, from the feed direction; 0 where the method cannot spin",
+    )
+    contact_spacing_mm: float = key(
+        not_negative("mm"),
+        0.0,
+        "Distance of the two contacts, kept along the passes by the spin of each position; 0: one spin for all",
+    )
+    spacing_measure: str = key(
+        choice(ACROSS, DIRECT),
+        ACROSS,
+        "How the distance of the contacts is measured: across the feed, or direct from one to the other",
+    )
+    tilt_max_deg: float = key(
+        inside(0, 90, "degrees"), 45.0, "Largest angle between the tool axis and the vertical"
+    )
+    options: dict[str, Any] = key(values.options, dict, "Numbers of the method's own")
 
     def check_together(self) -> None:
         if self.contact_spacing_mm and self.spin_deg:
@@ -84,12 +109,14 @@ class MethodSpec(Table):
 
 @dataclass(frozen=True)
 class Tolerance(Table):
-    """What the plan may miss by: the depth of a gouge, and the chord of a move against the true path."""
+    """What the plan may miss by."""
 
     table: ClassVar[str] = "tolerance"
 
-    gouge_mm: float = key(positive("mm"), 0.001)
-    chord_mm: float = key(positive("mm"), 0.01)
+    gouge_mm: float = key(positive("mm"), 0.001, "Depth by which the cutter may enter a face at a position")
+    chord_mm: float = key(
+        positive("mm"), 0.01, "Distance between the true path and the straight moves of machine and model"
+    )
 
 
 @dataclass(frozen=True)
@@ -99,32 +126,40 @@ class LinkSpec(Table):
     table: ClassVar[str] = "link"
 
     safe_clearance_mm: float = key(
-        positive("mm"), 5.0
-    )  # between the part and the whole tool on the safe plane
-    approach_distance_mm: float = key(positive("mm"), 2.0)  # how near to the part a rapid may come
+        positive("mm"), 5.0, "Between the part and the whole tool on the safe plane"
+    )
+    approach_distance_mm: float = key(positive("mm"), 2.0, "How near to the part a rapid may come")
 
 
 @dataclass(frozen=True)
 class MachineSpec(Table):
+    """What makes the moves."""
+
     table: ClassVar[str] = "machine"
 
-    name: str = key(values.text, DEFAULT_MACHINE)
+    name: str = key(
+        values.named("a shipped machine or its file"),
+        DEFAULT_MACHINE,
+        "The machine the joint values are computed for",
+    )
 
 
 @dataclass(frozen=True)
 class PostSpec(Table):
-    """The program's dialect, its name, and the feeds and speed in it."""
+    """The program."""
 
     table: ClassVar[str] = "post"
 
-    name: str = key(values.text, DEFAULT_POST)
-    program_name: str = key(values.text, "MPM01")
-    tool_number: int = key(values.whole(1, 99999), 1)
-    spindle_rpm: float = key(positive("turns per minute"), 8000.0)
-    cut_feed_mm_per_min: float = key(positive("mm/min"), 1000.0)
-    plunge_feed_mm_per_min: float = key(positive("mm/min"), 300.0)
-    tcp: bool = key(values.flag, True)  # the control holds the tip; false: the program moves the joints
-    options: dict[str, Any] = field(default_factory=dict, metadata={"check": values.options})
+    name: str = key(values.named("the name of a post"), DEFAULT_POST, "The form of the program text")
+    program_name: str = key(
+        values.text, "MPM01", "The program's name: 1 to 16 capital letters, digits and underscores"
+    )
+    tool_number: int = key(values.whole(1, 99999), 1, "The tool's number in the control")
+    spindle_rpm: float = key(positive("turns per minute"), 8000.0, "Speed of the spindle")
+    cut_feed_mm_per_min: float = key(positive("mm/min"), 1000.0, "Feed of the cuts")
+    plunge_feed_mm_per_min: float = key(positive("mm/min"), 300.0, "Feed of the plunges")
+    tcp: bool = key(values.flag, True, "The control holds the tip; false: the program moves the joints")
+    options: dict[str, Any] = key(values.options, dict, "What the post may be asked for besides")
 
 
 _TABLES: tuple[type[Table], ...] = (
@@ -139,6 +174,8 @@ _TABLES: tuple[type[Table], ...] = (
     PostSpec,
 )
 SECTIONS = {one.table: one for one in _TABLES}
+# Every key of a job by its full name, e.g. "footprint.side_step_mm".
+KEYS = {one.full_name: one for table in _TABLES for one in table.keys()}
 
 
 @dataclass(frozen=True)

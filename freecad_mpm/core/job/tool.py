@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar
 
-from ..base import TOOLS, InputError, Table, key, not_negative, positive, read_toml, values
+from ..base import TOOLS, Check, InputError, Table, key, not_negative, positive, read_toml, values
 
 # Flute length of a cutter that is described by its radii alone, in cutter radii.
 DEFAULT_FLUTE_RADII = 4.0
@@ -19,34 +19,46 @@ class Segment(Table):
 
     table: ClassVar[str] = "segment"
 
-    bottom_radius_mm: float = key(positive("mm"))
-    top_radius_mm: float = key(positive("mm"))
-    length_mm: float = key(positive("mm"))
+    bottom_radius_mm: float = key(positive("mm"), words="Radius at its lower end")
+    top_radius_mm: float = key(positive("mm"), words="Radius at its upper end")
+    length_mm: float = key(positive("mm"), words="Length along the tool axis")
 
 
-def segments(value: Any) -> tuple[Segment, ...]:
-    """Check for a list of segments, given as such or as tables."""
+def _segments(value: Any) -> tuple[Segment, ...] | None:
+    """Given as such or as tables."""
     if not isinstance(value, Sequence) or isinstance(value, str):
-        raise ValueError(f"must be a list of tables, got {value!r}")
+        return None
     return tuple(one if isinstance(one, Segment) else Segment.from_table(one) for one in value)
+
+
+SEGMENTS = Check(tuple, "a list of tables", _segments)
 
 
 @dataclass(frozen=True)
 class ToolSpec(Table):
-    """A toroidal cutter (mm): Ro = major_radius_mm, Ri = minor_radius_mm; Ro = 0 is a ball end, Ri = 0 a flat one.
-
-    `recess_mm` is the depth of the hollow inside the ring above the tip plane (0: flat bottom); `flute_length_mm` is
-    measured from the tip (0: a usual length); shank, then holder, stand on the flutes."""
+    """A toroidal cutter."""
 
     table: ClassVar[str] = "tool"
 
-    major_radius_mm: float = key(not_negative("mm"))
-    minor_radius_mm: float = key(not_negative("mm"))
-    recess_mm: float = key(not_negative("mm"), 0.0)
-    flute_length_mm: float = key(not_negative("mm"), 0.0)
-    shank: tuple[Segment, ...] = key(segments, ())
-    holder: tuple[Segment, ...] = key(segments, ())
-    name: str = key(values.any_text, "")
+    major_radius_mm: float = key(
+        not_negative("mm"), words="Ro, of the circle on which the torus' centres lie; 0: a ball end"
+    )
+    minor_radius_mm: float = key(
+        not_negative("mm"), words="Ri, of the torus, that is of the corner; 0: a flat end"
+    )
+    recess_mm: float = key(
+        not_negative("mm"), 0.0, "Depth of the hollow in the cutter's bottom; 0: flat bottom"
+    )
+    flute_length_mm: float = key(
+        not_negative("mm"),
+        0.0,
+        f"Length of the flutes from the tip; 0: {DEFAULT_FLUTE_RADII:g} times the cutter's radius",
+    )
+    shank: tuple[Segment, ...] = key(
+        SEGMENTS, (), "Truncated cones that stand on the flutes, one upon the other"
+    )
+    holder: tuple[Segment, ...] = key(SEGMENTS, (), "Truncated cones that stand on the shank")
+    name: str = key(values.any_text, "", "What lists and messages call it")
 
     def check_together(self) -> None:
         if self.radius_mm == 0:

@@ -5,8 +5,8 @@ Names follow FreeCAD's machine model; docs/machine.md explains frames and signs.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
@@ -38,34 +38,35 @@ S = TypeVar("S", bound=Table)
 
 def limit(unit: str) -> Check:
     """A number of which an axis may also have none: inf or -inf."""
-
-    def check(value: Any) -> float:
-        if isinstance(value, float) and math.isinf(value):
-            return value
-        return float(number(unit)(value))
-
-    return check
+    return _or_infinite(number(unit), (math.inf, -math.inf))
 
 
 def positive_or_none(unit: str) -> Check:
     """A positive number that an axis may also not know: inf."""
-    return lambda value: value if value == math.inf else positive(unit)(value)
+    return _or_infinite(positive(unit), (math.inf,))
 
 
-def one(kind: type[S]) -> Callable[[Any], S]:
-    """Check for a table of this kind."""
-    return lambda value: value if isinstance(value, kind) else kind.from_table(value)
+def _or_infinite(check: Check, taken: tuple[float, ...]) -> Check:
+    return replace(check, take=lambda value: value if value in taken else check(value))
 
 
-def several(kind: type[S], count: int) -> Callable[[Any], tuple[S, ...]]:
-    """Check for a list of so many tables of this kind."""
+def one(kind: type[S]) -> Check:
+    """A table of this kind."""
+    return Check(kind, "a table", lambda value: value if isinstance(value, kind) else kind.from_table(value))
 
-    def check(value: Any) -> tuple[S, ...]:
+
+def several(kind: type[S], count: int) -> Check:
+    """A list of so many tables of this kind."""
+
+    def take(value: Any) -> tuple[S, ...] | None:
         if not isinstance(value, Sequence) or isinstance(value, str) or len(value) != count:
-            raise ValueError(f"must be {count} tables [[{kind.table}]]")
+            return None
         return tuple(one(kind)(entry) for entry in value)
 
-    return check
+    return Check(tuple, f"{count} tables [[{kind.table}]]", take)
+
+
+SENSE = Check(int, "1 or -1", lambda value: value if type(value) is int and value in (1, -1) else None)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -97,7 +98,7 @@ class RotaryAxis(Table):
     role: str = key(choice("table_rotary", "head_rotary"))
     rotation_vector: Vector = key(values.direction)
     joint_origin_mm: Vector = key(vector, (0.0, 0.0, 0.0))
-    sense: int = key(lambda value: _sense(value), 1)
+    sense: int = key(SENSE, 1)
     zero_offset_deg: float = key(number("degrees"), 0.0)
     min_limit_deg: float = key(limit("degrees"), -math.inf)
     max_limit_deg: float = key(limit("degrees"), math.inf)
@@ -107,12 +108,6 @@ class RotaryAxis(Table):
 
     def native(self) -> _core.RotaryAxis:
         return _core.RotaryAxis(**{k: v for k, v in vars(self).items() if k != "max_jerk_deg_per_s3"})
-
-
-def _sense(value: Any) -> int:
-    if value in (1, -1) and isinstance(value, int) and not isinstance(value, bool):
-        return int(value)
-    raise ValueError(f"must be 1 or -1, got {value!r}")
 
 
 @dataclass(frozen=True, kw_only=True)

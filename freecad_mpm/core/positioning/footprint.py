@@ -8,8 +8,11 @@ import numpy as np
 
 from ... import _core
 from ..base import Flags, Floats, Integers, Stages, blame
-from ..job import Job
+from ..job import FootprintSpec, Job
 from ..part import Scene
+
+# What the core says of both steps together, and their keys.
+BOTH_STEPS = "steps: ", "side_step_mm, forward_step_mm: "
 
 
 @dataclass(frozen=True)
@@ -23,11 +26,20 @@ class Footprint:
 def lay_out(job: Job, scene: Scene, stages: Stages) -> Footprint:
     """The footprint over the faces to machine; where a pass leaves them it ends and a new one begins."""
     spec = job.footprint
-    low, high = scene.model.machined_bounds()
     with blame(f"{job.source}: [{spec.table}]"):
-        points, pass_index = stages.run(
-            "footprint",
-            _core.raster,
+        points, pass_index = stages.run("footprint", _raster, spec, *scene.model.machined_bounds())
+    keep = stages.run("footprint", _core.restrict_to_faces, scene.model, scene.tool, points, spec.margin_mm)
+    if not keep.any():
+        raise job.error(
+            spec.table, "side_step_mm", "gives no position over the faces to machine; it must be smaller"
+        )
+    return Footprint(points[keep], unbroken_runs(pass_index, keep))
+
+
+def _raster(spec: FootprintSpec, low: Floats, high: Floats) -> tuple[Floats, Integers]:
+    """Points and passes over the rectangle of plan that these corners span."""
+    try:
+        return _core.raster(
             low[:2],
             high[:2],
             direction_deg=spec.direction_deg,
@@ -36,12 +48,8 @@ def lay_out(job: Job, scene: Scene, stages: Stages) -> Footprint:
             margin_mm=spec.margin_mm,
             zigzag=spec.zigzag,
         )
-    keep = stages.run("footprint", _core.restrict_to_faces, scene.model, scene.tool, points, spec.margin_mm)
-    if not keep.any():
-        raise job.error(
-            spec.table, "side_step_mm", "gives no position over the faces to machine; it must be smaller"
-        )
-    return Footprint(points[keep], unbroken_runs(pass_index, keep))
+    except ValueError as error:
+        raise ValueError(str(error).replace(*BOTH_STEPS, 1)) from None
 
 
 def unbroken_runs(pass_index: Integers, keep: Flags) -> Integers:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -39,7 +39,7 @@ class Report:
 
     verdict: Verdict
     warnings: tuple[str, ...]
-    job: Facts
+    job: Facts  # every key of every table, and where the job came from
     positions: PositionFigures
     worst_position: WorstPosition | None
     path: PathFigures
@@ -72,7 +72,7 @@ def make_report(
             *unproven(path),
             *slowed(machine, path, part.joints),
         ),
-        job=_job_facts(job),
+        job=asdict(job),
         positions=PositionFigures.of(positions, tolerance, guarantee),
         worst_position=WorstPosition.of(positions),
         path=PathFigures.of(positions, path, tolerance, guarantee),
@@ -97,29 +97,3 @@ def with_cut(plain: Report, tolerance: Tolerance, cut: Cut) -> Report:
     if not cut.good(depth):
         verdict = verdict.with_trouble(f"the removal finds a face cut deeper than {depth:g} mm")
     return replace(plain, verdict=verdict, cut=CutReport.of(cut))
-
-
-def _job_facts(job: Job) -> Facts:
-    method, footprint = job.method, job.footprint
-    return {
-        "source": job.source,
-        "part": job.part.file,
-        "faces": list(job.part.faces) or "all",
-        "tool": job.tool.describe(),
-        "footprint": {
-            "pattern": footprint.pattern,
-            "direction_deg": footprint.direction_deg,
-            "side_step_mm": footprint.side_step_mm,
-            "forward_step_mm": footprint.forward_step_mm,
-            "zigzag": footprint.zigzag,
-        },
-        "method": method.name,
-        "options": dict(method.options),
-        "tilt_max_deg": method.tilt_max_deg,
-        "spin_deg": method.spin_deg,
-        "contact_spacing_mm": method.contact_spacing_mm,
-        "gouge_tolerance_mm": job.tolerance.gouge_mm,
-        "chord_tolerance_mm": job.tolerance.chord_mm,
-        "machine": job.machine.name,
-        "post": job.post.name,
-    }

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from dataclasses import asdict
 
-from ..job import PROVEN
+from ..job import PROVEN, words
 from .figures import PathFigures
 from .report import Facts, Report
 
@@ -63,23 +63,7 @@ def text(report: Report) -> str:
 
 
 def _job_lines(job: Facts) -> list[str]:
-    faces = job["faces"] if isinstance(job["faces"], str) else ", ".join(job["faces"])
-    footprint = job["footprint"]
-    order = "zigzag" if footprint["zigzag"] else "one way"
-    return [
-        f"Job:       {job['source']}",
-        f"Part:      {job['part']}, faces {faces}",
-        f"Tool:      {job['tool']}",
-        f"Footprint: {footprint['pattern']}, feed at {footprint['direction_deg']:g} deg, "
-        f"steps {footprint['side_step_mm']:g} mm aside, {footprint['forward_step_mm']:g} mm forward, {order}",
-        f"Method:    {job['method']}, {_spin(job)}, tilt up to {job['tilt_max_deg']:g} deg",
-        f"Tolerance: gouge {job['gouge_tolerance_mm']:g} mm, chord {job['chord_tolerance_mm']:g} mm",
-    ]
-
-
-def _spin(job: Facts) -> str:
-    wanted = job["contact_spacing_mm"]
-    return f"spin for contacts {wanted:g} mm apart" if wanted else f"spin {job['spin_deg']:g} deg"
+    return [f"Job:       {job['source']}", *words.job_lines(job)]
 
 
 def _position_lines(report: Report) -> list[str]:

@@ -27,7 +27,7 @@ def test_everything_but_part_and_tool_has_its_default(tmp_path: Path) -> None:
     assert loaded.setup == Setup((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0))
     assert (loaded.tool.recess_mm, loaded.tool.shank, loaded.tool.holder) == (0.0, (), ())
     assert loaded.tool.flute_length_mm > 6.0
-    assert loaded.footprint == FootprintSpec("raster", 90.0, 18.0, 2.0, False, 0.0)
+    assert loaded.footprint == FootprintSpec("raster", 90.0, 5.0, 2.0, False, 0.0)
     assert (loaded.method.spin_deg, loaded.method.tilt_max_deg) == (0.0, 45.0)
     assert (loaded.tolerance.gouge_mm, loaded.tolerance.chord_mm) == (0.001, 0.01)
     assert (loaded.machine.name, loaded.post.name) == ("dmu80p", "dmu80p")

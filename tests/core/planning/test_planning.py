@@ -178,7 +178,7 @@ WRONG_JOBS = [
     ({"method": MethodSpec("vcrf", spin_deg=5)}, r"\[method\] spin_deg: vcrf cannot spin"),
     (
         {"footprint": FootprintSpec(side_step_mm=1e-4)},
-        r"\[footprint\] steps: .* more than 10000000 positions",
+        r"\[footprint\] side_step_mm, forward_step_mm: .* more than 10000000 positions",
     ),
     ({"footprint": FootprintSpec(margin_mm=-80)}, r"\[footprint\] margin_mm: takes off the whole region"),
 ]
