@@ -313,6 +313,33 @@ def reached_from(root: Path, files: dict[str, Path], room: str) -> set[str]:
     return reached
 
 
+# ---------------------------------------------------------------------------------------- tests by name
+
+
+def without_a_test_of_their_name(root: Path) -> list[str]:
+    """Modules of core that no tests/core/<room>/test_<module>.py is there for, and native ones (by header) that no
+    native/tests/<module>/test_<header>.cpp is there for. Tests of another name may reach them all the same.
+    """
+    core, native = root / "freecad_mpm/core", root / "native/src/mpm"
+    python = [
+        path.relative_to(core)
+        for path in sorted(core.rglob("*.py"))
+        if path.name != "__init__.py" and path.parent != core
+    ]
+    missing = [
+        f"core/{module.with_suffix('').as_posix()}"
+        for module in python
+        if not (root / "tests/core" / module.with_name(f"test_{module.name}")).exists()
+    ]
+    headers = [path.relative_to(native) for path in sorted(native.rglob("*.h"))]
+    missing += [
+        f"native/{header.with_suffix('').as_posix()}"
+        for header in headers
+        if not (root / "native/tests" / header.with_name(f"test_{header.stem}.cpp")).exists()
+    ]
+    return missing
+
+
 # ---------------------------------------------------------------------------------------- the whole tree
 
 NOT_OURS = {".git", "build", "out", "__pycache__", ".pytest_cache", ".mypy_cache", ".hypothesis"}

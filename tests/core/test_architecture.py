@@ -246,3 +246,24 @@ def test_the_room_opens_without_the_native_module(room: str) -> None:
 def test_every_module_of_the_table_is_there_and_nothing_else() -> None:
     folders = {path.name for path in (ROOT / "native/src/mpm").iterdir() if path.is_dir()}
     assert folders == set(rules.layers_of(ROOT))
+
+
+UNTESTED = ROOT / "tests/core/without_own_test.txt"
+
+
+def test_the_list_of_modules_without_a_test_of_their_name_only_shrinks() -> None:
+    """A new module comes with a test of its name; who writes one takes the module's line out of the list."""
+    assert rules.without_a_test_of_their_name(ROOT) == UNTESTED.read_text().split()
+
+
+def test_a_module_without_a_test_is_named(checkout: Path) -> None:
+    put(checkout, "native/src/mpm/base/novel.h", "")
+    assert rules.without_a_test_of_their_name(checkout) == [
+        "core/control/kinematics",
+        "core/posts/dmu80p",
+        "core/program/both",
+        "native/base/novel",
+    ]
+    put(checkout, "tests/core/posts/test_dmu80p.py", "")
+    put(checkout, "native/tests/base/test_novel.cpp", "")
+    assert rules.without_a_test_of_their_name(checkout) == ["core/control/kinematics", "core/program/both"]

@@ -9,10 +9,12 @@ from pathlib import Path
 from typing import Any
 
 import FreeCAD
+import numpy as np
 import pytest
 
 from freecad_mpm.document import cl_path, computation, properties
 from freecad_mpm.document.operation import MultiPointFinish
+from freecad_mpm.document.verification import Verification
 
 ROOT = Path(__file__).resolve().parents[2]
 # Where FreeCAD looks for add-ons: up to 1.0, and 1.1.
@@ -122,3 +124,23 @@ def test_without_the_native_module_the_document_opens_and_shows_its_path(op: Any
     assert problem.startswith("the native module cannot be loaded") and "./dev build" in problem, output
     assert f"MOVES {moves}\n" in problem
     assert "CREATE the native module cannot be loaded" in problem
+
+
+def test_a_document_from_before_the_rooms_of_core_opens_and_computes_the_same(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Saved by the version whose core was one flat folder (commit 6907d12), with an operation and its verification."""
+    file = shutil.copy(ROOT / "tests/data/rooms_before.FCStd", tmp_path)
+    with monkeypatch.context() as opening:
+        opening.setattr(computation, "compute", lambda *_: pytest.fail("computed again"))
+        doc = FreeCAD.openDocument(str(file))
+    op, result = doc.getObject("MultiPointFinish"), doc.getObject("Verification")
+    assert isinstance(op.Proxy, MultiPointFinish) and isinstance(result.Proxy, Verification)
+    assert op.Good and op.SideStep.Value == 16.0 and op.Margin.Value == -2.0 and op.TiltMax.Value == 30.0
+    before, report = cl_path.from_commands(op.Path.Commands), op.Verdict
+    op.touch()
+    doc.recompute()
+    after = cl_path.from_commands(op.Path.Commands)
+    assert (op.Problem, op.Verdict, after.kind) == ("", report, before.kind)
+    assert np.allclose(after.tip, before.tip, atol=1e-6) and np.allclose(after.axis, before.axis, atol=1e-8)
+    FreeCAD.closeDocument(doc.Name)

@@ -7,7 +7,14 @@ is used. `scripts/job_page.py` then writes docs/job-file.md anew."""
 from __future__ import annotations
 
 from . import budget, tool, words
-from .budget import PROVEN, WORD_SLACK, control_deviation_deg, control_tip_deviation_mm, cut_depth_mm
+from .budget import (
+    PROVEN,
+    WORD_SLACK,
+    certified_depth_mm,
+    control_deviation_deg,
+    control_tip_deviation_mm,
+    cut_depth_mm,
+)
 from .file import dump, load
 from .tables import (
     ACROSS,
@@ -51,6 +58,7 @@ __all__ = [
     "ToolSpec",
     "WORD_SLACK",
     "budget",
+    "certified_depth_mm",
     "control_deviation_deg",
     "control_tip_deviation_mm",
     "cut_depth_mm",

@@ -8,7 +8,7 @@ import numpy as np
 
 from ... import _core
 from ..base import Floats, Integers, Names, Stages
-from ..job import Job, control_deviation_deg, control_tip_deviation_mm
+from ..job import Job, certified_depth_mm, control_deviation_deg, control_tip_deviation_mm
 from ..part import Scene
 
 STAGE = "motions"
@@ -34,7 +34,6 @@ def certify(
 ) -> Certified:
     """Certificates of the moves that lead to the rows `ends` (K,) of tip, axis (N, 3) from the rows before them, which
     may cut in by depth_mm, one or (K,). A tip that is off its line takes as much off the clearance."""
-    tip_off = control_tip_deviation_mm(job)
     found = stages.run_native(
         STAGE,
         _core.certify_motions,
@@ -44,8 +43,8 @@ def certify(
         axis[ends - 1],
         tip[ends],
         axis[ends],
-        tolerance_mm=depth_mm - tip_off,
+        tolerance_mm=certified_depth_mm(job, depth_mm),
         axis_deviation_deg=control_deviation_deg(job),
     )
     verdict = np.array(_core.VERDICTS)[found["verdict"]]
-    return Certified(found["lo"] - tip_off, found["hi"], verdict, found["cells"])
+    return Certified(found["lo"] - control_tip_deviation_mm(job), found["hi"], verdict, found["cells"])
