@@ -14,7 +14,7 @@ namespace {
 using testing::CaseMaker;
 using testing::kHalf;
 
-constexpr int kRounds = 3;             // of all grounds with all cutters
+constexpr int kRounds = 2;             // of all grounds with all cutters
 constexpr int kStarts = 6;             // points, and as many given contacts, a ground and cutter
 constexpr int kGrid = 96;              // intervals a side of a face, for the points
 constexpr double kTolerance = 1e-3;    // mm: exact's default

@@ -1,8 +1,11 @@
 #include "mpm/base/parallel.h"
 
 #include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
 
 namespace mpm {
 
@@ -16,7 +19,9 @@ void for_each_range(std::size_t n,
     body(range.begin(), range.end());
     context.advance(range.size());
   };
-  const int threads = context.threads() > 0 ? context.threads() : tbb::task_arena::automatic;
+  // More than there are processors for this process gain nothing, and with one of them TBB warns on stderr.
+  const int most = tbb::info::default_concurrency();
+  const int threads = context.threads() > 0 ? std::min(context.threads(), most) : most;
   tbb::task_arena(threads).execute(
       [&] { tbb::parallel_for(Range(0, n, grain), run, tbb::simple_partitioner()); });
 }

@@ -8,10 +8,10 @@
 
 namespace mpm {
 
-// Calls body(begin, end) on disjoint ranges that cover [0, n), in parallel on context.threads() threads (0:
-// all), `grain` items or fewer at a time. Advances the context's progress by the items done and starts no
-// further range once it is cancelled. The body writes only to its own items, so the result does not depend on
-// the number of threads.
+// Calls body(begin, end) on disjoint ranges that cover [0, n), in parallel on context.threads() threads, but
+// no more than there are processors (0: all), `grain` items or fewer at a time. Advances the context's
+// progress by the items done and starts no further range once it is cancelled. The body writes only to its
+// own items, so the result does not depend on the number of threads.
 void for_each_range(std::size_t n,
                     std::size_t grain,
                     Context& context,
