@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from test_cutting import plane, scene_of
+from cut_samples import plane, scene_of
 
 from freecad_mpm.core import job
 from freecad_mpm.core.base import Key, Stages, pages, values
@@ -18,7 +18,7 @@ from freecad_mpm.core.base.tables import ENDINGS
 from freecad_mpm.core.job import KEYS, FootprintSpec, Job, Part, Segment, ToolSpec, words
 from freecad_mpm.core.positioning import lay_out
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 PAGE = ROOT / "docs/job-file.md"
 COMMAND = "scripts/job_page.py"
 ALL_KEYS = (*KEYS.values(), *Segment.keys())
