@@ -60,8 +60,7 @@ def test_a_wrong_datum_of_the_writer_is_found(monkeypatch: pytest.MonkeyPatch) -
     right = Machine.datum_mm.fget(find_shop(job_of()).machine)  # type: ignore[attr-defined]
     monkeypatch.setattr(Machine, "datum_mm", right + [0.0, 0.0, 0.02])
     found = made(job_of())
-    assert any("round trip" in str(one) for one in found.checks.findings)
-    assert found.checks.tip_error_mm == pytest.approx(0.02, abs=1e-3)
+    assert "round trip" in {one.check for one in found.checks.findings}
     assert "findings of the program's checks" in found.troubles[0]
 
 
@@ -72,4 +71,4 @@ def test_a_wrong_axis_of_the_path_is_found(tcp: bool) -> None:
     machine = find_shop(job).machine
     first, second = machine.rotary_axes
     other = replace(machine, rotary_axes=(replace(first, sense=-first.sense), second))
-    assert made(job, machine=other).checks.axis_error_deg > 1.0
+    assert "round trip" in {one.check for one in made(job, machine=other).checks.findings}
