@@ -48,7 +48,8 @@ def coarse_job(thesis_job: Job) -> Job:
 
 def test_the_thesis_footprint_comes_out_exactly(thesis_job: Job) -> None:
     stages = Stages()
-    footprint = lay_out(thesis_job, prepare(thesis_job, None, stages), stages)
+    job = replace(thesis_job, footprint=FootprintSpec(side_step_mm=18.0))
+    footprint = lay_out(job, prepare(job, None, stages), stages)
     x, y = np.meshgrid([*range(0, 145, 18), 150], np.arange(0, 151, 2), indexing="ij")
     assert footprint.points.tolist() == np.dstack((x, y)).reshape(-1, 2).astype(float).tolist()
     assert footprint.pass_index.tolist() == np.repeat(np.arange(10), 76).tolist()

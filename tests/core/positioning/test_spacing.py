@@ -62,7 +62,7 @@ def test_the_report_says_how_well_it_was_kept(plan: Plan) -> None:
     count = np.count_nonzero(~plan.inserted)
     said = f"Contacts 8 mm apart from contact to contact: within 1% at {count} of {count} positions of the footprint"
     text = report(plan.report)
-    assert said in text and "spin for contacts 8 mm apart" in text
+    assert said in text and "contact spacing 8 mm" in text
 
 
 def test_what_cannot_be_reached_is_told_with_the_nearest(saddle_job: Job) -> None:
