@@ -30,7 +30,7 @@ def job_of(op: Any, machined: Sequence[str], check: Sequence[str]) -> job.Job:
         "post": post_of(op),
     }
     others: dict[str, Any] = {table: _table(op, table) for table in job.SECTIONS if table not in made}
-    return job.Job(**made, **others, source=op.Label)
+    return job.Job(**made, **others, label=op.Label)
 
 
 def tool_of(op: Any) -> job.ToolSpec:

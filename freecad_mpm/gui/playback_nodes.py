@@ -44,7 +44,7 @@ class PlaybackNodes:
         self._machine.whichChild = coin.SO_SWITCH_ALL if shown else coin.SO_SWITCH_NONE
 
     def place(self, bodies: Mapping[str, Floats]) -> None:
-        """Move everything; `bodies` as core.playback.Playback.placements gives them."""
+        """Move everything; `bodies` as core.playback.Playback.body_matrices gives them."""
         for name, node in self._matrices.items():
             node.matrix = _coin_matrix(bodies[name])
         self.part.matrix = _coin_matrix(bodies[machine_motion.PART])

@@ -112,7 +112,7 @@ class PlaybackPanel(panels.ClosingPanel):
         playback = self.played.playback
         self._place = min(max(place, 0.0), playback.last)
         moment = playback.moment(self._place)
-        self._nodes.place(playback.placements(moment, self.form.view.currentText() == PART_FIXED))
+        self._nodes.place(playback.body_matrices(moment, self.form.view.currentText() == PART_FIXED))
 
     def _show_words(self) -> None:
         playback = self.played.playback

@@ -122,7 +122,7 @@ class VerificationPanel(panels.ClosingPanel):
             return
         playback = self._played.playback
         moment = playback.moment(playback.at_move(self.move))
-        self._nodes_in_view(self._played).place(playback.placements(moment, part_fixed=True))
+        self._nodes_in_view(self._played).place(playback.body_matrices(moment, part_fixed=True))
 
     def _nodes_in_view(self, shown: Played) -> PlaybackNodes:
         if self._stage is None:

@@ -84,9 +84,9 @@ def runs(surfaces: Sequence[str] | None, methods: Sequence[str] | None, threads:
     for method in methods or method_names():
         for surface, spec in jobs.items():
             own = replace(spec.method, name=method, options={}, contact_spacing_mm=0.0)
-            with_method = replace(spec, method=own, source="--methods")
+            with_method = replace(spec, method=own, label="--methods")
             check_method(with_method)
-            result += [Run(surface, replace(with_method, source=spec.source), count) for count in counts]
+            result += [Run(surface, replace(with_method, label=spec.label), count) for count in counts]
     return result
 
 

@@ -21,7 +21,7 @@ def load(path: str | Path) -> Job:
     path = Path(path)
     tables = read_toml(path)
     try:
-        return replace(from_tables(tables, path.parent), source=str(path))
+        return replace(from_tables(tables, path.parent), label=str(path))
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
 

@@ -189,7 +189,7 @@ class Job:
     link: LinkSpec = LinkSpec()
     machine: MachineSpec = MachineSpec()
     post: PostSpec = PostSpec()
-    source: str = field(default="job", compare=False)  # put in front of messages: the file it came from
+    label: str = field(default="job", compare=False)  # put in front of messages: its file, or its operation
 
     def error(self, table: str, name: str, message: str) -> InputError:
-        return InputError(f"{self.source}: [{table}] {name}: {message}")
+        return InputError(f"{self.label}: [{table}] {name}: {message}")

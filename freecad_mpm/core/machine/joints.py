@@ -45,10 +45,10 @@ ABOVE_ALL_MM = 100.0
 
 @dataclass(frozen=True)
 class JointPath(Moves):
-    """Moves with what the machine does in them. Rows that were inserted belong to the given move `source`."""
+    """Moves with what the machine does in them. Rows that were inserted keep the given row in `move`."""
 
     linear_mm: Floats  # (M, 3) readings of X, Y, Z: the spindle gauge point in the machine frame
-    source: Integers  # (M,) index of the given move that the move is part of
+    move: Integers  # (M,) index of the given move that the move is part of
     status: Names  # (M,) of _core.JOINT_STATUS, or OFF_LINE
     at_pole: Flags  # (M,) inside the machine's pole cone: the first rotary axis follows its neighbours
 
@@ -61,7 +61,7 @@ class JointPath(Moves):
         for status, (meaning, remedy) in TROUBLE.items():
             rows = np.flatnonzero(self.status == status)
             if len(rows):
-                first = int(self.source[rows[0]])
+                first = int(self.move[rows[0]])
                 at = "" if position is None else _near(position, first)
                 lines.append(f"{meaning}: {len(rows)} moves, the first in move {first}{at} ({remedy})")
         return lines
@@ -82,7 +82,7 @@ class _Rows:
 
     tip: Floats
     axis: Floats
-    source: Integers
+    move: Integers
     turns_first: Flags  # first row of a rapid that turns, then travels
     travels_first: Flags  # first row of a rapid that travels, then turns
     held: Flags  # no change of the rotary solution in this row
@@ -121,17 +121,17 @@ def joint_path(
     )
     row = joints["source"].astype(np.int64)
     keep = ~_redundant(joints["rotary_deg"], joints["tip"], rows.turns_first[row], rows.travels_first[row])
-    source = rows.source[row[keep]]
+    move = rows.move[row[keep]]
     status = np.array(_core.JOINT_STATUS + (OFF_LINE,))[joints["status"][keep]]
-    status[(status == "ok") & ~joints["keeps"][keep] & (kind[source] != "rapid")] = OFF_LINE
+    status[(status == "ok") & ~joints["keeps"][keep] & (kind[move] != "rapid")] = OFF_LINE
     path = JointPath(
-        kind=kind[source],
+        kind=kind[move],
         tip=joints["tip"][keep],
         axis=joints["axis"][keep],
         rotary_deg=joints["rotary_deg"][keep],
-        feed_mm_per_min=feed_mm_per_min[source],
+        feed_mm_per_min=feed_mm_per_min[move],
         linear_mm=joints["linear_mm"][keep],
-        source=source,
+        move=move,
         status=status,
         at_pole=joints["at_pole"][keep],
     )
@@ -172,19 +172,19 @@ def _as_given(kind: Names, tip: Floats, axis: Floats) -> _Rows:
 def _with_rapids_in_two(kind: Names, tip: Floats, axis: Floats) -> _Rows:
     in_two = kind == "rapid"
     in_two[:1] = False
-    source = np.repeat(np.arange(len(kind)), np.where(in_two, 2, 1))
-    first = np.zeros(len(source), dtype=bool)
-    first[:-1] = source[:-1] == source[1:]
-    before = np.maximum(source - 1, 0)
-    falls = tip[before, 2] >= tip[source, 2]
+    move = np.repeat(np.arange(len(kind)), np.where(in_two, 2, 1))
+    first = np.zeros(len(move), dtype=bool)
+    first[:-1] = move[:-1] == move[1:]
+    before = np.maximum(move - 1, 0)
+    falls = tip[before, 2] >= tip[move, 2]
     turns_first, travels_first = first & falls, first & ~falls
     # Held are feed moves and the travelling row: the second of a pair that turns first, the first of one that does not.
     turning = turns_first | np.roll(travels_first, 1)
     turning[:1] = True
     return _Rows(
-        tip=tip[np.where(turns_first, before, source)],
-        axis=axis[np.where(travels_first, before, source)],
-        source=source,
+        tip=tip[np.where(turns_first, before, move)],
+        axis=axis[np.where(travels_first, before, move)],
+        move=move,
         turns_first=turns_first,
         travels_first=travels_first,
         held=~turning,

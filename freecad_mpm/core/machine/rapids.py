@@ -43,7 +43,7 @@ def with_rapids_proven(
     rapid = path.kind == "rapid"
     free = found["verdict"] == _core.VERDICTS.index("free")
     proven = np.where(rapid, True, path.proven)
-    proven[joints.source[pieces.row[~free]]] = False
+    proven[joints.move[pieces.row[~free]]] = False
     return replace(path, proven=proven)
 
 

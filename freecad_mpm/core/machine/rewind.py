@@ -43,14 +43,14 @@ def fit_to_machine(
 
 def forced_cuts(path: ToolPath, joints: JointPath) -> Integers:
     """Cuts of the path, rising, in which a rotary axis has to rewind or take its other solution."""
-    moves = np.unique(joints.source[joints.status == FORCED])
+    moves = np.unique(joints.move[joints.status == FORCED])
     return np.asarray(moves[path.kind[moves] == "cut"])
 
 
 def seam(machine: Machine, path: ToolPath, joints: JointPath, move: int) -> float:
     """The fraction of a cut at which the rotary axis that has to rewind reaches its limit; 0 where it can as well rewind
     before the cut begins."""
-    rows = np.flatnonzero(joints.source == move)
+    rows = np.flatnonzero(joints.move == move)
     start, end = joints.rotary_deg[rows[0] - 1], joints.rotary_deg[rows[-1]]
     axis = int(np.argmax(np.abs(end - start)))
     rotary, up = machine.rotary_axes[axis], end[axis] < start[axis]
@@ -80,7 +80,7 @@ def interrupted(
 ) -> ToolPath:
     """The path with each of these cuts interrupted a fraction of it from its start, there a way up to the safe plane
     and down again. The rapid down is where the axes turn: at its upper end, with the tip held."""
-    with blame(f"{job.source}: [{job.link.table}]"):
+    with blame(f"{job.label}: [{job.link.table}]"):
         ways = [
             stages.run_native("path", _interruption, scene, path, int(move), where, options)
             for move, where in zip(cuts, seams)

@@ -37,7 +37,7 @@ def build_scene(job: Job, faces: Sequence[FaceArrays]) -> Scene:
     """The scene of a job's part, whose `faces` are in the part's frame."""
     machined, check = machined_and_check(job, faces)
     frame = frame_of(job.setup)
-    with blame(f"{job.source}:"):
+    with blame(f"{job.label}:"):
         return Scene(frame, machined, check, surface_model(machined, check, frame), native_tool(job.tool))
 
 
@@ -97,6 +97,6 @@ def prepare(job: Job, faces: Sequence[FaceArrays] | None, stages: Stages) -> Sce
 
     Trim polygons may be off by the gouge tolerance: a border that they cut short is a gouge nobody sees."""
     if faces is None:
-        with blame(f"{job.source}: [{job.part.table}] file:"):
+        with blame(f"{job.label}: [{job.part.table}] file:"):
             faces = stages.run("read", read_part, job.part.file, job.tolerance.gouge_mm)
     return stages.run("model", build_scene, job, faces)

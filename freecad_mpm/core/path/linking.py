@@ -36,7 +36,7 @@ def cut_length_max_mm(job: Job) -> float:
 def link(job: Job, scene: Scene, positions: Positions, cuts: Floats | None, stages: Stages) -> ToolPath:
     """The path over the usable positions, in the set-up frame. cuts: (N,) proven clearances of the cuts that end in the
     positions, NaN where there must be none; None: sampling decides."""
-    with blame(f"{job.source}: [{job.link.table}]"):
+    with blame(f"{job.label}: [{job.link.table}]"):
         linked = stages.run_native(
             "path",
             _core.link_passes,

@@ -69,10 +69,10 @@ def render(played: Playback, place: float, faces: Sequence[FaceArrays], tool: To
     figure = Figure(figsize=(WIDTH_PX / DPI, HEIGHT_PX / DPI), dpi=DPI, facecolor="white")
     FigureCanvasAgg(figure)
     part = [patch.reshape(-1, 4, 3) for patch in quads(faces, QUAD_BUDGET)]
-    bodies = played.placements(moment, part_fixed=True)
+    bodies = played.body_matrices(moment, part_fixed=True)
     on_part = figure.add_axes((0.0, 0.0, 0.40, 1.0), projection="3d", computed_zorder=False)
     _fill(on_part, [*_part(part, np.eye(4)), *_tool(tool, bodies)])
-    bodies = played.placements(moment, part_fixed=False)
+    bodies = played.body_matrices(moment, part_fixed=False)
     box = _box(part)
     on_machine = figure.add_axes((0.40, 0.0, 0.40, 1.0), projection="3d", computed_zorder=False)
     machine = _machine(played, box, tool, bodies)

@@ -21,7 +21,7 @@ PART, RAM, SPINDLE, TOOL = "part", "ram", "spindle", "tool"
 PARALLEL = 1e-12
 
 
-def placements(machine: Machine, rotary_deg: ArrayLike, linear_mm: ArrayLike) -> dict[str, Floats]:
+def body_matrices(machine: Machine, rotary_deg: ArrayLike, linear_mm: ArrayLike) -> dict[str, Floats]:
     """Body -> matrix (4, 4) from its place with all joints at zero to where it is at these readings.
 
     rotary_deg (2,): of the rotary axes, from the part to the tool; linear_mm (3,): X, Y, Z of the gauge point.

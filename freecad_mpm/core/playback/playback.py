@@ -71,7 +71,7 @@ class Playback:
 
     def at_move(self, move: int) -> float:
         """The place where a move of the given path ends."""
-        return float(np.searchsorted(self.blocks.source, move, side="right")) - 1.0
+        return float(np.searchsorted(self.blocks.move, move, side="right")) - 1.0
 
     def seconds_at(self, place: float) -> float:
         return float(np.interp(place, np.arange(len(self.blocks)), self.seconds))
@@ -110,7 +110,7 @@ class Playback:
             self.machine, tip[None], angles[None], origin, setup.tool_length_mm
         )
         return Moment(
-            move=int(self.blocks.source[under_way]),
+            move=int(self.blocks.move[under_way]),
             kind=str(self.blocks.kind[under_way]),
             seconds=self.seconds_at(place),
             tip=tip,
@@ -120,15 +120,15 @@ class Playback:
             joint_status=str(self.blocks.status[under_way]),
         )
 
-    def placements(self, moment: Moment, part_fixed: bool) -> dict[str, Floats]:
-        """Body -> matrix (4, 4) as `machine_motion.placements`, or as seen from the part."""
-        bodies = machine_motion.placements(self.machine, moment.rotary_deg, moment.linear_mm)
+    def body_matrices(self, moment: Moment, part_fixed: bool) -> dict[str, Floats]:
+        """Body -> matrix (4, 4) as `bodies.body_matrices`, or as seen from the part."""
+        bodies = machine_motion.body_matrices(self.machine, moment.rotary_deg, moment.linear_mm)
         return machine_motion.seen_from_part(bodies) if part_fixed else bodies
 
 
 def make_playback(machine: Machine, blocks: JointPath, visited: Visited) -> Playback:
     """blocks: what `machine_path` made of the path whose moves `visited` counts."""
-    ends = np.searchsorted(blocks.source, visited.move, side="right") - 1  # the last block of each move
+    ends = np.searchsorted(blocks.move, visited.move, side="right") - 1  # the last block of each move
     steps = np.linalg.norm(np.diff(blocks.tip, axis=0, prepend=blocks.tip[:1]), axis=1)
     seconds = move_seconds(machine, blocks, blocks.linear_mm)
     seconds[:1] = 0.0  # the path starts at the end of its first block

@@ -26,7 +26,7 @@ SPINDLE_MARGIN, SPINDLE_LENGTH, HEAD_LENGTH, HEAD_RADIUS, RAM_LENGTH = 1.25, 3.0
 
 
 def sketch(machine: Machine, part_box: tuple[Floats, Floats], tool: ToolSpec) -> dict[str, Mesh]:
-    """Body -> its mesh, in the frames of `machine_motion.placements`: tables in the set-up frame, heads, spindle and
+    """Body -> its mesh, in the frames of `bodies.body_matrices`: tables in the set-up frame, heads, spindle and
     ram from the gauge point. part_box: low and high corner of the part in the set-up frame."""
     tables = [axis for axis in machine.rotary_axes if axis.role == "table_rotary"]
     heads = [axis for axis in machine.rotary_axes if axis.role == "head_rotary"]

@@ -26,7 +26,7 @@ class Footprint:
 def lay_out(job: Job, scene: Scene, stages: Stages) -> Footprint:
     """The footprint over the faces to machine; where a pass leaves them it ends and a new one begins."""
     spec = job.footprint
-    with blame(f"{job.source}: [{spec.table}]"):
+    with blame(f"{job.label}: [{spec.table}]"):
         points, pass_index = stages.run("footprint", _raster, spec, *scene.model.machined_bounds())
     keep = stages.run("footprint", _core.restrict_to_faces, scene.model, scene.tool, points, spec.margin_mm)
     if not keep.any():

@@ -29,7 +29,7 @@ def make_positioner(job: Job, scene: Scene, stages: Stages) -> _core.Positioner:
             cells=scene.cells,
         )
 
-    with blame(f"{job.source}: [{method.table}]"):
+    with blame(f"{job.label}: [{method.table}]"):
         return stages.run_native("index", make)
 
 
@@ -38,7 +38,7 @@ def place(
 ) -> tuple[Positions, spacing.Nearest, dict[str, int]]:
     """Positions in the set-up frame, what contact spacings come nearest to a wanted one, and the method's counters."""
     method, nearest = job.method, spacing.Nearest()
-    with blame(f"{job.source}: [{MethodSpec.table}]"):
+    with blame(f"{job.label}: [{MethodSpec.table}]"):
         if method.contact_spacing_mm:
             spaced = stages.run_native(
                 "positions",

@@ -34,11 +34,11 @@ class Shop:
 def find_shop(job: Job) -> Shop:
     """Raises InputError for a machine or post that there is not, for what the post does not write, and for a program
     name that controls do not take."""
-    with blame(f"{job.source}: [{job.machine.table}] name:"):
+    with blame(f"{job.label}: [{job.machine.table}] name:"):
         machine = machines.load(job.machine.name)
-    with blame(f"{job.source}: [{job.post.table}] name:"):
+    with blame(f"{job.label}: [{job.post.table}] name:"):
         post = posts.load(job.post.name)
-    with blame(f"{job.source}:"):
+    with blame(f"{job.label}:"):
         options = post.options(job.post.options)
     if not (job.post.tcp or post.joints):
         raise job.error(
@@ -120,7 +120,7 @@ def make_program(
 
     Raises InputError for what the post cannot write."""
     programs = [part.described(job, shop) for part in parts]
-    with blame(f"{job.source}: [{job.post.table}]"):
+    with blame(f"{job.label}: [{job.post.table}]"):
         text = stages.run("program", shop.post.write, *programs)
     blocks, checks = stages.run("check", _read_back, text, job, shop, parts)
     return Made(parts, programs, ProgramFile(stem + shop.post.file_ending, text), blocks, checks)

@@ -49,7 +49,7 @@ def proof_program(job: Job, shop: Shop, box: tuple[Floats, Floats]) -> Program:
         axis_tolerance_deg=control_deviation_deg(job),
         tip_tolerance_mm=None if job.post.tcp else control_tip_deviation_mm(job),
     )
-    last = np.append(np.flatnonzero(np.diff(moves.source)), len(moves) - 1)
+    last = np.append(np.flatnonzero(np.diff(moves.move)), len(moves) - 1)
     return Program(
         name=job.post.program_name,
         machine=shop.machine,
@@ -58,13 +58,13 @@ def proof_program(job: Job, shop: Shop, box: tuple[Floats, Floats]) -> Program:
         moves=moves,
         axes_mm=None if job.post.tcp else axes_of(shop.machine, moves),
         options=replace(shop.options, coolant="off"),
-        stops={int(row): told[moves.source[row]] for row in last},
+        stops={int(row): told[moves.move[row]] for row in last},
         spindle_on=False,
     )
 
 
 def proof_file(job: Job, shop: Shop, box: tuple[Floats, Floats]) -> ProgramFile:
     """Its text. Raises InputError for a post that cannot write it."""
-    with blame(f"{job.source}: [{job.post.table}]"):
+    with blame(f"{job.label}: [{job.post.table}]"):
         text = shop.post.write(proof_program(job, shop, box))
     return ProgramFile(FILE_STEM + shop.post.file_ending, text)

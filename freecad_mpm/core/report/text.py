@@ -63,7 +63,7 @@ def text(report: Report) -> str:
 
 
 def _job_lines(job: Facts) -> list[str]:
-    return [f"Job:       {job['source']}", *words.job_lines(job)]
+    return [f"Job:       {job['label']}", *words.job_lines(job)]
 
 
 def _position_lines(report: Report) -> list[str]:

@@ -72,7 +72,7 @@ def _place(path: ToolPath, move: int) -> str:
 
 def slowed(machine: Machine, path: ToolPath, joints: JointPath) -> list[str]:
     """Cuts in which the rotary axes cannot follow the feed."""
-    moves = np.unique(joints.source[slowed_cuts(machine, joints)])
+    moves = np.unique(joints.move[slowed_cuts(machine, joints)])
     places = path.position[moves][path.position[moves] >= 0]
     if not len(places):
         return []

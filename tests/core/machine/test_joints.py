@@ -82,9 +82,9 @@ def test_solution_side_tells_the_two_solutions_apart():
 def test_given_poses_are_kept_in_order_and_met():
     kind, tip, axis, feed = two_passes()
     path = joint_path(dmu80p(), kind, tip, axis, feed, axis_tolerance_deg=0.02)
-    last = np.append(np.flatnonzero(np.diff(path.source)), len(path) - 1)
+    last = np.append(np.flatnonzero(np.diff(path.move)), len(path) - 1)
     assert len(path) > len(kind)
-    assert path.source[last].tolist() == list(range(len(kind)))
+    assert path.move[last].tolist() == list(range(len(kind)))
     assert (path.tip[last] == tip).all()
     assert (
         kinematics.angles_between_deg(kinematics.tool_axes(dmu80p(), path.rotary_deg), path.axis).max() < 1e-9

@@ -79,7 +79,7 @@ def assert_interrupted(plan, cut):
         path.clearance[start + 1] >= -plan.job.tolerance.chord_mm
     )  # the retract begins within the cut's chord
     # the turn itself: at the top with the tip held, or above it
-    rows = np.flatnonzero((plan.joints.source > start) & (plan.joints.source < cut))
+    rows = np.flatnonzero((plan.joints.move > start) & (plan.joints.move < cut))
     turn = np.abs(np.diff(plan.joints.rotary_deg[:, 0]))[rows - 1]
     turning = rows[turn > 90.0]
     assert len(turning) == 1 and plan.joints.kind[turning[0]] == "rapid"

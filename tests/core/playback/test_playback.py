@@ -46,7 +46,7 @@ def test_the_tool_stands_where_the_path_says_on_every_machine(name):
     assert "unreachable" not in set(played.blocks.status)
     for row in range(0, len(played.blocks), 7):
         bodies = machine_motion.seen_from_part(
-            machine_motion.placements(machine, played.blocks.rotary_deg[row], played.blocks.linear_mm[row])
+            machine_motion.body_matrices(machine, played.blocks.rotary_deg[row], played.blocks.linear_mm[row])
         )
         assert bodies["tool"][:3, 3] == pytest.approx(played.blocks.tip[row], abs=1e-9)
         assert bodies["tool"][:3, 2] == pytest.approx(played.blocks.axis[row], abs=1e-9)
@@ -55,7 +55,7 @@ def test_the_tool_stands_where_the_path_says_on_every_machine(name):
 
 def test_a_table_turns_against_its_reading_and_a_head_with_it():
     machine = machine_named("head_b_table_c")  # C carries the part, B the tool; both senses ISO
-    bodies = machine_motion.placements(machine, [90.0, 30.0], ORIGIN_MM)
+    bodies = machine_motion.body_matrices(machine, [90.0, 30.0], ORIGIN_MM)
     # The tool moves from x to y relative to the part, thus the part from y to x.
     assert bodies["part"][:3, :3] @ [0, 1, 0] == pytest.approx([1, 0, 0], abs=1e-12)
     assert bodies["part"] == pytest.approx(bodies["C"])
@@ -67,17 +67,17 @@ def test_a_table_turns_against_its_reading_and_a_head_with_it():
 def test_the_outer_table_carries_the_inner_one():
     machine = machine_named("table_ac")
     origin = np.array(machine.rotary_axes[1].joint_origin_mm) - ORIGIN_MM
-    bodies = machine_motion.placements(machine, [40.0, -90.0], (0.0, 0.0, 0.0))
+    bodies = machine_motion.body_matrices(machine, [40.0, -90.0], (0.0, 0.0, 0.0))
     quarter = np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]])  # the table A at -90 turns by +90 about x
     assert bodies["A"][:3, :3] == pytest.approx(quarter, abs=1e-12)
     assert bodies["A"][:3, :3] @ origin + bodies["A"][:3, 3] == pytest.approx(origin)
-    alone = machine_motion.placements(machine, [40.0, 0.0], (0.0, 0.0, 0.0))["C"]
+    alone = machine_motion.body_matrices(machine, [40.0, 0.0], (0.0, 0.0, 0.0))["C"]
     assert bodies["C"] == pytest.approx(bodies["A"] @ alone)
 
 
 def test_with_the_part_at_rest_all_bodies_keep_their_places_to_each_other(played):
     moment = played.moment(30.4)
-    free, fixed = (played.placements(moment, part_fixed) for part_fixed in (False, True))
+    free, fixed = (played.body_matrices(moment, part_fixed) for part_fixed in (False, True))
     for name in free:
         assert fixed[name] == pytest.approx(machine_motion.inverse(free["part"]) @ free[name], abs=1e-9)
 
@@ -87,8 +87,8 @@ def test_a_place_between_two_blocks_runs_evenly(played):
     moment = played.moment(20.25)
     assert moment.tip == pytest.approx(0.75 * blocks.tip[20] + 0.25 * blocks.tip[21])
     assert moment.rotary_deg == pytest.approx(0.75 * blocks.rotary_deg[20] + 0.25 * blocks.rotary_deg[21])
-    assert moment.move == blocks.source[21]
-    assert played.moment(20.0).move == blocks.source[20]
+    assert moment.move == blocks.move[21]
+    assert played.moment(20.0).move == blocks.move[20]
     # Evenly turning axes leave the straight line of directions by no more than the path's tolerance.
     chord = 0.75 * blocks.axis[20] + 0.25 * blocks.axis[21]
     angle = np.degrees(np.arccos(np.clip(moment.axis @ chord / np.linalg.norm(chord), -1, 1)))
@@ -161,5 +161,5 @@ def test_the_sketch_has_every_body_and_the_table_lies_under_the_part(name):
     first = machine.rotary_axes[0]
     if first.role == "table_rotary":
         assert bodies[first.name].points[:, 2].max() <= low[2] + 1e-9
-    placed = machine_motion.placements(machine, [0.0, 0.0], ORIGIN_MM)
+    placed = machine_motion.body_matrices(machine, [0.0, 0.0], ORIGIN_MM)
     assert set(bodies) <= set(placed)

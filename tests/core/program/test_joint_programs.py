@@ -107,7 +107,7 @@ def test_a_joint_that_is_off_is_found(post, letter, amount):
 def test_blocks_that_are_missing_are_found_by_the_way_between_the_others(post):
     """Without the blocks put in between, every pose of the CL list is still met: only the way between them tells."""
     given = program()
-    last = np.append(np.diff(given.moves.source) != 0, True) | given.moves.is_rapid
+    last = np.append(np.diff(given.moves.move) != 0, True) | given.moves.is_rapid
     coarse = replace(
         given,
         moves=replace(given.moves, **{name: getattr(given.moves, name)[last] for name in vars(given.moves)}),
