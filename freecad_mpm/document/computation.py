@@ -15,7 +15,7 @@ class NativeModuleMissing(InputError):
 def compute(op: Any, job: Any) -> tuple[Any, str]:
     """The plan of operation `op` in CAM job `job`, and its report text.
 
-    Raises InputError (what is wrong with which property), core.errors.Cancelled, NativeModuleMissing."""
+    Raises InputError (what is wrong with which property), core.base.Cancelled, NativeModuleMissing."""
     require_native()
     from ..core import planning
     from ..core.report import text

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import pytest
 from freecad_window import FreeCADWindow
-from test_pick_and_finish import COARSE, TOP_MIDDLE
-from test_verification import ROUGH
+from window_words import COARSE, ROUGH, TOP_MIDDLE
 
 EDIT = "Gui.ActiveDocument.setEdit(op.Name, 0)"
 VERIFY = (

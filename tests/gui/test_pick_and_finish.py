@@ -5,16 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 from freecad_window import FreeCADWindow
+from window_words import COARSE, TOP_MIDDLE, dialog_text, press, press_cancel, press_in_panel
 
 FINISHED = "op = doc.getObject('MultiPointFinish')\nresult = op is not None and not doc.HasPendingTransaction"
 PICKED = "[[s.ObjectName, *s.SubElementNames] for s in Gui.Selection.getSelectionEx()]"
-TOP_MIDDLE = "on_screen(middle_of_face(block, top))"
-PROGRESS = """
-box = window.findChild(QtGui.QProgressDialog)
-result = box is not None and box.isVisible() and box.windowHandle().isExposed()
-"""
-# Few positions, so that a test takes seconds; pictures are made with finer steps.
-COARSE = "import freecad_mpm\nop = freecad_mpm.create(doc, [(block, top)], SideStep=20, ForwardStep=8)\n"
 DRAWN = """
 nodes = op.ViewObject.Proxy.nodes
 result = dict(cuts=nodes.cuts.count, links=nodes.links.count, axes=nodes.axes.count,
@@ -40,35 +34,10 @@ def click_top_face(window: FreeCADWindow) -> None:
     window.wait_for(f"{PICKED} == [['Block', top]]", "the top face to be picked")
 
 
-def press(window: FreeCADWindow, command: str) -> None:
-    window.click(f"button_of({command!r})")
-
-
-def press_in_panel(window: FreeCADWindow, button: str) -> None:
-    """A button of the task panel that ends it."""
-    window.click(f"panel_button(QtGui.QDialogButtonBox.{button})")
-    window.wait_for("not Gui.Control.activeDialog()", "the task panel to close")
-
-
 def finish(window: FreeCADWindow) -> None:
     """The command's button, until there is an operation, `op`."""
     press(window, "MPM_Finish")
     window.wait_for(lambda: window.run(FINISHED), "the finished operation")
-
-
-def press_cancel(window: FreeCADWindow, picture: str = "") -> None:
-    """Cancel in the progress dialog, as soon as it stands on the screen; all is over then."""
-    window.wait_for(lambda: window.run(PROGRESS), "the progress dialog")
-    if picture:
-        window.screenshot(picture)
-    window.click("middle_of(box.findChild(QtGui.QPushButton))")
-    window.wait_for("not doc.HasPendingTransaction", "the cancelled command to end")
-
-
-def dialog_text(window: FreeCADWindow) -> str:
-    """The text of the message box that is open; it is closed."""
-    window.wait_for("message_box() is not None", "a message box")
-    return str(window.run("box = message_box()\nresult = box.text()\nbox.accept()"))
 
 
 def test_a_click_on_a_face_and_the_command_make_an_operation(window: FreeCADWindow, part: None) -> None:

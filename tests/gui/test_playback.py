@@ -6,17 +6,9 @@ from collections.abc import Iterator
 
 import pytest
 from freecad_window import FreeCADWindow
-from test_pick_and_finish import COARSE, dialog_text, press, press_in_panel
+from window_words import COARSE, NODES, dialog_text, press, press_in_panel
 
 WORD = "result = form._words[{!r}].text()"
-# How many nodes the view holds beside each other, where objects and ours may be.
-NODES = """
-from pivy import coin
-from freecad_mpm.gui import playback_nodes
-scene = view.getSceneGraph()
-objects = playback_nodes._parent(scene, op.ViewObject.RootNode)
-result = scene.getNumChildren() + objects.getNumChildren()
-"""
 # What the whole program's processor time is whenever Coin has drawn a frame.
 FRAMES = """
 import time

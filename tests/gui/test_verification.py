@@ -6,8 +6,7 @@ from collections.abc import Iterator
 
 import pytest
 from freecad_window import FreeCADWindow
-from test_pick_and_finish import COARSE, TOP_MIDDLE, dialog_text, press, press_cancel, press_in_panel
-from test_playback import NODES
+from window_words import COARSE, NODES, ROUGH, TOP_MIDDLE, dialog_text, press, press_cancel, press_in_panel
 
 # Once `panel` is the wanted one.
 PANEL = "form, result_object = panel.form, panel.result"
@@ -25,10 +24,6 @@ def share_of_hue(color):
     points = [QtGui.QColor(image.pixel(x, y)) for x in range(400) for y in range(300)]
     return sum(map(same, points)) / len(points)
 """
-
-
-# Few points, so that a test takes seconds.
-ROUGH = "from freecad_mpm.core import cutting\ncutting.DEXELS_ALONG = 80\n"
 
 
 @pytest.fixture
@@ -64,7 +59,7 @@ def test_colours_and_legend_are_seen_and_hidden(window: FreeCADWindow, panel: No
     window.run(HUES + "op.ViewObject.Visibility = False\nview.viewTop()\nview.fitAll()")
     window.screenshot("8-verification")
     share = (
-        "from freecad_mpm.core import deviation_bands\n"
+        "from freecad_mpm.core.removal import bands as deviation_bands\n"
         "bands = deviation_bands.bands(result_object.Tolerance.Value)\n"
         "result = [share_of_hue(deviation_bands.COLOURS[band]) for band in (1, 2, 4, 5)]"
     )

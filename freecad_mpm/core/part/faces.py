@@ -11,7 +11,7 @@ from ..base import Floats, InputError
 
 
 class SetupFrame(Protocol):
-    """What can carry points (..., 3) from the part frame into a set-up frame (core.frame.Frame)."""
+    """What can carry points (..., 3) from the part frame into a set-up frame (core.part.Frame)."""
 
     def to_setup(self, points: Floats) -> Floats:
         ...
