@@ -8,10 +8,10 @@ import FreeCAD
 import FreeCADGui
 from PySide import QtGui
 
-from ..core.base import Cancelled, InputError, one_line
+from ..core.base import Cancelled, InputError
 from . import icons
-
-TITLE = "Multi-Point Machining"
+from .messages import TITLE, report
+from .selection import operation
 
 
 class FinishCommand:
@@ -65,7 +65,7 @@ class WriteProgramCommand:
         from ..document import program
 
         try:
-            op = _operation()
+            op = operation()
             path = _ask_file(program.default_name(op))
             if path:
                 program.write(op, path)
@@ -93,7 +93,7 @@ class PlaybackCommand:
         from .playback_panel import open_panel
 
         try:
-            open_panel(_operation())
+            open_panel(operation())
         except InputError as error:
             report(error)
 
@@ -117,7 +117,7 @@ class VerifyCommand:
         from .verification_panel import run_and_show
 
         try:
-            run_and_show(_operation())
+            run_and_show(operation())
         except InputError as error:
             report(error)
 
@@ -130,24 +130,6 @@ def register() -> list[str]:
     for command in COMMANDS:
         FreeCADGui.addCommand(command.name, command())
     return [command.name for command in COMMANDS]
-
-
-def report(error: Exception) -> None:
-    """Tell the user in a dialog; the report view keeps the line."""
-    text = one_line(error) if isinstance(error, InputError) else f"{type(error).__name__}: {one_line(error)}"
-    FreeCAD.Console.PrintError(f"{TITLE}: {text}\n")
-    QtGui.QMessageBox.warning(FreeCADGui.getMainWindow(), TITLE, text)
-
-
-def _operation() -> Any:
-    """The selected operation, or the only one of the document."""
-    from ..document.operation import is_operation
-
-    chosen = [obj for obj in FreeCADGui.Selection.getSelection() if is_operation(obj)]
-    found = chosen or [obj for obj in FreeCAD.ActiveDocument.Objects if is_operation(obj)]
-    if len(found) != 1:
-        raise InputError(f"select one Multi-Point Finish operation; there are {len(found)}")
-    return found[0]
 
 
 def _ask_file(name: str) -> str:
