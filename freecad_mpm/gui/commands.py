@@ -1,154 +1,121 @@
-"""The workbench's commands."""
+"""The workbench's commands: one row each."""
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
+from dataclasses import dataclass
 
 import FreeCAD
 import FreeCADGui
 from PySide import QtGui
 
-from ..core.base import Cancelled, InputError, one_line
+from ..core.base import Cancelled, InputError
 from . import icons
+from .messages import TITLE, report
+from .selection import operation
 
-TITLE = "Multi-Point Machining"
 
+@dataclass(frozen=True)
+class Command:
+    """As FreeCAD wants it. Can be used while a document is open; tells an InputError in a dialog."""
 
-class FinishCommand:
-    """Pick faces -> an operation in the Job."""
-
-    name = "MPM_Finish"
+    name: str
+    icon: str  # of resources/icons
+    text: str  # in the menu
+    tip: str
+    act: Callable[[], None]
 
     def GetResources(self) -> dict[str, str]:
-        return {
-            "Pixmap": icons.path("multi_point_finish"),
-            "MenuText": "Multi-Point Finish",
-            "ToolTip": "Finish the picked faces with a toroidal cutter that touches them at several points at once",
-        }
+        return {"Pixmap": icons.path(self.icon), "MenuText": self.text, "ToolTip": self.tip}
 
     def IsActive(self) -> bool:
         return FreeCAD.ActiveDocument is not None
 
     def Activated(self) -> None:
-        from ..document.creation import create
-
-        doc = FreeCAD.ActiveDocument
-        faces = FreeCADGui.Selection.getSelectionEx()
-        doc.openTransaction("Multi-Point Finish")
         try:
-            create(doc, faces)
-        except Exception as error:
-            doc.abortTransaction()
-            if not isinstance(error, Cancelled):
-                report(error)
-            return
-        doc.commitTransaction()
-        FreeCADGui.Selection.clearSelection()  # the faces' highlight would hide the passes on them
-
-
-class WriteProgramCommand:
-    """The operation's program -> a file."""
-
-    name = "MPM_WriteProgram"
-
-    def GetResources(self) -> dict[str, str]:
-        return {
-            "Pixmap": icons.path("write_program"),
-            "MenuText": "Write Program",
-            "ToolTip": "Write the program of the selected Multi-Point Finish operation to a file",
-        }
-
-    def IsActive(self) -> bool:
-        return FreeCAD.ActiveDocument is not None
-
-    def Activated(self) -> None:
-        from ..document import program
-
-        try:
-            op = _operation()
-            path = _ask_file(program.default_name(op))
-            if path:
-                program.write(op, path)
-                FreeCAD.Console.PrintMessage(f"{op.Label}: program written to {path}\n")
+            self.act()
         except InputError as error:
             report(error)
-
-
-class PlaybackCommand:
-    """The tool and the machine along the operation's path."""
-
-    name = "MPM_Playback"
-
-    def GetResources(self) -> dict[str, str]:
-        return {
-            "Pixmap": icons.path("playback"),
-            "MenuText": "Playback",
-            "ToolTip": "Move the tool and the machine along the path of the selected Multi-Point Finish operation",
-        }
-
-    def IsActive(self) -> bool:
-        return FreeCAD.ActiveDocument is not None
-
-    def Activated(self) -> None:
-        from .playback_panel import open_panel
-
-        try:
-            open_panel(_operation())
-        except InputError as error:
-            report(error)
-
-
-class VerifyCommand:
-    """What the operation's path leaves of the stock, against the part."""
-
-    name = "MPM_Verify"
-
-    def GetResources(self) -> dict[str, str]:
-        return {
-            "Pixmap": icons.path("verify"),
-            "MenuText": "Verify",
-            "ToolTip": "Cut the selected Multi-Point Finish operation into stock and colour how far the part is met",
-        }
-
-    def IsActive(self) -> bool:
-        return FreeCAD.ActiveDocument is not None
-
-    def Activated(self) -> None:
-        from .verification_panel import run_and_show
-
-        try:
-            run_and_show(_operation())
-        except InputError as error:
-            report(error)
-
-
-COMMANDS: tuple[Any, ...] = (FinishCommand, PlaybackCommand, VerifyCommand, WriteProgramCommand)
 
 
 def register() -> list[str]:
     """Make the commands known to FreeCAD; returns their names in the order of the toolbar."""
     for command in COMMANDS:
-        FreeCADGui.addCommand(command.name, command())
+        FreeCADGui.addCommand(command.name, command)
     return [command.name for command in COMMANDS]
 
 
-def report(error: Exception) -> None:
-    """Tell the user in a dialog; the report view keeps the line."""
-    text = one_line(error) if isinstance(error, InputError) else f"{type(error).__name__}: {one_line(error)}"
-    FreeCAD.Console.PrintError(f"{TITLE}: {text}\n")
-    QtGui.QMessageBox.warning(FreeCADGui.getMainWindow(), TITLE, text)
+def _finish() -> None:
+    """Picked faces -> an operation in the Job, as one step to undo; whatever fails undoes it."""
+    from ..document.creation import create
+
+    doc = FreeCAD.ActiveDocument
+    faces = FreeCADGui.Selection.getSelectionEx()
+    doc.openTransaction("Multi-Point Finish")
+    try:
+        create(doc, faces)
+    except Exception as error:
+        doc.abortTransaction()
+        if not isinstance(error, Cancelled):
+            report(error)
+        return
+    doc.commitTransaction()
+    FreeCADGui.Selection.clearSelection()  # the faces' highlight would hide the passes on them
 
 
-def _operation() -> Any:
-    """The selected operation, or the only one of the document."""
-    from ..document.operation import is_operation
+def _play_back() -> None:
+    from .playback_panel import open_panel
 
-    chosen = [obj for obj in FreeCADGui.Selection.getSelection() if is_operation(obj)]
-    found = chosen or [obj for obj in FreeCAD.ActiveDocument.Objects if is_operation(obj)]
-    if len(found) != 1:
-        raise InputError(f"select one Multi-Point Finish operation; there are {len(found)}")
-    return found[0]
+    open_panel(operation())
+
+
+def _verify() -> None:
+    from .verification_panel import run_and_show
+
+    run_and_show(operation())
+
+
+def _write_program() -> None:
+    from ..document import program
+
+    op = operation()
+    path = _ask_file(program.default_name(op))
+    if path:
+        program.write(op, path)
+        FreeCAD.Console.PrintMessage(f"{op.Label}: program written to {path}\n")
 
 
 def _ask_file(name: str) -> str:
     return QtGui.QFileDialog.getSaveFileName(FreeCADGui.getMainWindow(), TITLE, name)[0]
+
+
+COMMANDS = (
+    Command(
+        "MPM_Finish",
+        "multi_point_finish",
+        "Multi-Point Finish",
+        "Finish the picked faces with a toroidal cutter that touches them at several points at once",
+        _finish,
+    ),
+    Command(
+        "MPM_Playback",
+        "playback",
+        "Playback",
+        "Move the tool and the machine along the path of the selected Multi-Point Finish operation",
+        _play_back,
+    ),
+    Command(
+        "MPM_Verify",
+        "verify",
+        "Verify",
+        "Cut the selected Multi-Point Finish operation into stock and colour how far the part is met",
+        _verify,
+    ),
+    Command(
+        "MPM_WriteProgram",
+        "write_program",
+        "Write Program",
+        "Write the program of the selected Multi-Point Finish operation to a file",
+        _write_program,
+    ),
+)

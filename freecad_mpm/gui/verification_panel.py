@@ -12,7 +12,8 @@ from ..core.base import Cancelled, InputError
 from ..core.removal import bands as deviation_bands
 from ..document import verification
 from ..document.playback import Played, played
-from . import panels
+from . import panels, playback_panel
+from .messages import report
 from .playback_nodes import PlaybackNodes, Stage
 from .spot_node import SpotNode
 
@@ -58,10 +59,8 @@ class VerificationPanel(panels.ClosingPanel):
         self._show_tool()
 
     def play_from_here(self) -> None:
-        from .playback_panel import open_panel as open_playback
-
         op, move = self.result.Operation, self.move
-        self._leave_for(lambda: open_playback(op).go_to_move(move))
+        self._leave_for(lambda: playback_panel.open_panel(op).go_to_move(move))
 
     def verify_again(self) -> None:
         """With the resolution of the field; a panel of the new result takes the place of this one."""
@@ -203,8 +202,6 @@ class VerificationForm(QtGui.QWidget):
 
 def run_and_show(op: Any, resolution_mm: float | None = None) -> None:
     """Verify as one step to undo, then show the result; a failure is told in a dialog."""
-    from .commands import report
-
     op.Document.openTransaction("Verify")
     try:
         panels.check_none_is_open()

@@ -212,6 +212,38 @@ def python_imports_follow_the_table(root: Path) -> Violations:
     return found
 
 
+def no_import_runs_in_a_circle(root: Path) -> Violations:
+    """Within `document` and within `gui`; imports inside functions and for types alone count too."""
+    found = []
+    for layer in ("document", "gui"):
+        files = sorted((root / "freecad_mpm" / layer).rglob("*.py"))
+        names = {module_name(root, path) for path in files}
+        uses = {module_name(root, path): modules_among(names, imports(root, path)) for path in files}
+        reached = {name: closure(uses, name) for name in names}
+        circles = {tuple(sorted(n for n in reached[m] if m in reached[n])) for m in names if m in reached[m]}
+        found += [
+            f"freecad_mpm/{layer}: imports in a circle: {', '.join(circle)}" for circle in sorted(circles)
+        ]
+    return found
+
+
+def modules_among(names: set[str], imported: set[str]) -> set[str]:
+    """The modules meant: `a.b` is the module b of a, or a name in a."""
+    return {name if name in names else name.rpartition(".")[0] for name in imported} & names
+
+
+def closure(uses: dict[str, set[str]], start: str) -> set[str]:
+    """All that `start` uses, directly or not; `start` itself when it comes back to it."""
+    reached: set[str] = set()
+    waiting = list(uses[start])
+    while waiting:
+        name = waiting.pop()
+        if name not in reached:
+            reached.add(name)
+            waiting += uses[name]
+    return reached
+
+
 # ---------------------------------------------------------------------------------------- rooms of core
 
 CORE = "freecad_mpm.core"
