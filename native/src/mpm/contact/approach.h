@@ -72,7 +72,7 @@ static_assert(Approach<Drop> && Approach<Tilt>);
 struct RingDistance {
   Vec3 gradient, across, around;    // unit, at right angles; across: in the meridian plane
   double bend_across, bend_around;  // 1/mm
-  Vec3 ring_curvature;  // 1/mm: of the circle round the tool's axis through s, whose tangent is `around`
+  Vec3 ring_curvature;              // 1/mm: of the circle round the tool's axis through s, along `around`
   // The Hessian's products with a vector along the three directions.
   struct Slope {
     double gradient, across, around;

@@ -24,8 +24,8 @@ struct PatchMinimum {
   double value = kInfinity;
   double u = kNaN, v = kNaN;
   Vec3 s = Vec3::Constant(kNaN);
-  bool on_border_u = false,
-       on_border_v = false;  // held by the border u = const (v = const): not a critical point
+  // Held by the border u = const (v = const): not a critical point.
+  bool on_border_u = false, on_border_v = false;
   int newton_steps = 0;
 };
 
@@ -40,9 +40,8 @@ inline constexpr double kGained = 1e-13;
 // many are taken.
 inline constexpr int kPolishingSteps = 2;
 inline constexpr double kHeld = 1e-8;  // slope above which a border contact is held by the border
-inline constexpr double kConvexPart =
-    1e-9;  // least eigenvalue against the greatest that Newton's step trusts
-inline constexpr double kLiftedPart = 1e-3;  // what it is lifted to otherwise
+// The least eigenvalue, as part of the greatest, that Newton's step trusts, and what it is lifted to else.
+inline constexpr double kConvexPart = 1e-9, kLiftedPart = 1e-3;
 
 struct FreeParameters {
   bool u, v;

@@ -14,8 +14,7 @@ namespace mpm {
 
 struct MotionCertificate {
   Verdict verdict = Verdict::undecided;
-  // mm: the clearance is proven never to be less (where nothing came near: 0, or what was asked for)
-  double lo = -kInfinity;
+  double lo = -kInfinity;         // mm: proven never to be less (nothing near: 0, or what was asked for)
   double hi = kInfinity;          // mm: the clearance at the witness
   double time = kNaN;             // of the witness, 0 to 1
   Vec3 s = Vec3::Constant(kNaN);  // the witness: a surface point
@@ -23,8 +22,7 @@ struct MotionCertificate {
 };
 
 struct CertifyMotionOptions {
-  // mm: what may be cut in and still be called free; negative: the clearance that free asks for
-  double tolerance = 0.01;
+  double tolerance = 0.01;         // mm: what a free motion may cut in; negative: the clearance it must keep
   double axis_deviation = 0.0;     // radians: what the real axis may be off the great circle
   std::uint32_t budget = 100'000;  // cells; beyond it the verdict is undecided
 };

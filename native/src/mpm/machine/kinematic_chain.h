@@ -55,8 +55,8 @@ struct KinematicChain {
 
 // What the set-up adds to the machine.
 struct PartSetup {
-  Vec3 part_origin =
-      Vec3::Zero();          // origin of the part's frame in the machine frame, rotary axes at zero offset
+  // Origin of the part's frame in the machine frame, rotary axes at their zero offsets.
+  Vec3 part_origin = Vec3::Zero();
   double tool_length = 0.0;  // gauge point to tip
 };
 

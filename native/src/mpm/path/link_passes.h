@@ -21,8 +21,7 @@ struct PathPositions {
 };
 
 struct LinkOptions {
-  double safe_clearance =
-      5.0;  // mm between the highest surface and the lowest point of the tool on the safe plane
+  double safe_clearance = 5.0;         // mm from the highest surface to the tool's lowest point, on the plane
   double approach_distance = 2.0;      // mm, how near to the surfaces a rapid may come
   double gouge = 0.01;                 // mm, how much deeper than its position a plunge or retract may cut
   double cut_gouge = 0.2;              // mm, the same for a cut between its two positions

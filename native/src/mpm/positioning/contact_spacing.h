@@ -13,8 +13,7 @@ namespace mpm {
 struct SpacedPlacements {
   Placements placed;
   std::vector<double> spacing;  // mm, as of contact_spacing
-  std::vector<double>
-      nearest;  // mm: of all spins, what comes nearest to the wanted spacing; NaN: no spin gives any
+  std::vector<double> nearest;  // mm: of all spins, what comes nearest to the wanted; NaN: no spin gives any
 };
 
 // Positions over the points, in their order; points of one pass follow each other and have the same

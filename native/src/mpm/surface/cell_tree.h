@@ -31,9 +31,8 @@ class CellTree {
 
   const SurfaceModel& model() const { return model_; }
   const std::vector<Node>& nodes() const { return nodes_; }
-  const std::vector<std::uint32_t>& roots() const {
-    return roots_;
-  }  // one a face that is not wholly trimmed away
+  // One a face that is not wholly trimmed away.
+  const std::vector<std::uint32_t>& roots() const { return roots_; }
 
   // Cells in fours; lanes that no cell fills repeat one that does.
   const std::vector<CellBatch>& batches() const { return batches_; }
