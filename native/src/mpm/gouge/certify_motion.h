@@ -38,7 +38,8 @@ struct CertifyMotionOptions {
 // the witness. Unless free, lo is -infinity.
 //
 // Fails: undecided when the budget ran out, or a point was found so deep that the deviation could take it
-// beyond the tolerance, or the call was cancelled, or the axes are opposite.
+// beyond the tolerance, or the call was cancelled, or the axes are opposite. Nothing is checked: that is up
+// to certify_motions().
 //
 // Threads: any number may share the tree.
 MotionCertificate certify_motion(const CellTree& tree,
@@ -54,9 +55,12 @@ struct Motion {
   CertifyMotionOptions options;
 };
 
-// Every motion in parallel; the result does not depend on the number of threads. Motions that a cancel left
-// out are undecided. Throws std::invalid_argument for numbers that are not finite, axes that are not unit
-// vectors, and a deviation that is negative.
+// Every motion, in parallel.
+//
+// Requires: a tree of the tool's judge_cells().
+// Guarantees: one certificate a motion, in their order, whatever the number of threads.
+// Fails: std::invalid_argument for a wrong tool (check_tool), numbers that are not finite, axes that are not
+//   unit vectors, and a deviation that is negative. What a cancel left out, or broke off, is undecided.
 std::vector<MotionCertificate> certify_motions(const CellTree& tree,
                                                const Tool& tool,
                                                const std::vector<Motion>& motions,
