@@ -10,7 +10,7 @@ namespace mpm {
 
 struct SampledClearance {
   double distance;     // mm, least signed distance found: the true clearance is at most this
-  Vec3 witness;        // the surface point that has it
+  Vec3 witness;        // the surface point that has it; NaN: none is within the range
   std::uint32_t face;  // its face
 };
 
