@@ -107,6 +107,11 @@ inline Vec2 ring_bend(const Derivatives& a, const SurfacePoint& p, const Vec2& s
 // Minimises `objective` over a patch. An Objective has
 //   double value(const Vec3& s) const                                   (+infinity where it has none)
 //   Derivatives derivatives(const SurfacePoint& p, double value) const
+//
+// Requires: objective and patch outlive it.
+// Guarantees: what it finds is in the patch, borders included.
+// Fails: an infinite value where the start has none; a minimum that is not found in kMaxNewtonSteps is left
+//   at the best point so far. A local minimum: nothing is proven of others.
 template <class Objective>
 class PatchSearch {
  public:
