@@ -29,7 +29,9 @@ struct FaceArrays {
 };
 
 // All faces of `shape`, converted. `chord_mm`: how far a side of a trim loop may be from the trimming curve.
-// Throws std::invalid_argument when there is no face or when one cannot be converted.
+//
+// Fails: std::invalid_argument when there is no face or when one, which it names, cannot be converted, and
+//   for a chord_mm that is not positive.
 std::vector<FaceArrays> face_arrays(const TopoDS_Shape& shape, double chord_mm);
 
 FaceArrays face_arrays(const TopoDS_Face& face, const std::string& name, double chord_mm);
@@ -38,6 +40,9 @@ FaceArrays face_arrays(const TopoDS_Face& face, const std::string& name, double 
 std::vector<TopoDS_Face> faces_in_order(const TopoDS_Shape& shape);
 
 // Back to OpenCASCADE: the surface of `face`, without its trim.
+//
+// Fails: std::invalid_argument where poles_u * poles_v is not the number of poles; Standard_Failure where
+//   OpenCASCADE refuses the rest.
 Handle(Geom_BSplineSurface) make_surface(const FaceArrays& face);
 
 }  // namespace mpm::occt
