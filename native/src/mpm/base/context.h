@@ -8,7 +8,9 @@ namespace mpm {
 
 // The worker counts `done` up to `total`; any thread may read both and may call cancel(). A cancelled call
 // returns soon (each item is short) with what it has; items it did not reach keep their "not computed"
-// status.
+// status. A cancel is for good: the next call with the same context does nothing either.
+//
+// Threads: start() is the worker's alone, all else is any thread's.
 class Context {
  public:
   explicit Context(int threads = 0) : threads_(threads) {}

@@ -10,7 +10,9 @@ struct TipPose {
   Vec3 axis;  // unit, tip to spindle
 };
 
-// The pose at fraction `t` in [0, 1] of the move from `a` to `b`. Requires axes that are not opposite.
+// The pose at fraction `t` in [0, 1] of the move from `a` to `b`.
+//
+// Requires: unit axes that are not opposite; else the axis means nothing.
 TipPose pose_between(const TipPose& a, const TipPose& b, double t);
 
 }  // namespace mpm

@@ -11,7 +11,8 @@
 namespace mpm {
 
 // A motion of the tool with parameter x, in which the ring meets a surface point s at x = arrival(s),
-// infinity for never. The tool's first touch is the least arrival over the surface.
+// infinity for never. The tool's first touch is the least arrival over the surface. Only the ring counts, no
+// shank or holder. Set-up frame.
 template <class A>
 concept Approach = requires(const A& approach, const Vec3& s, double x) {
   { approach.arrival(s) } -> std::same_as<double>;
@@ -27,6 +28,8 @@ concept Approach = requires(const A& approach, const Vec3& s, double x) {
 };
 
 // Lowering an upright tool over plan point `at` along -z; x = -(height of the torus centre), mm.
+//
+// Requires: the tool outlives it.
 class Drop {
  public:
   Drop(const Tool& tool, const Vec2& at) : tool_(tool), at_(at) {}
@@ -44,6 +47,8 @@ class Drop {
 };
 
 // Tilting about the pseudo-insert, far side down; x = tilt, radians.
+//
+// Requires: tool and insert outlive it; major_radius > 0 (circular_ray).
 class Tilt {
  public:
   Tilt(const Tool& tool, const Insert& insert) : tool_(tool), insert_(insert) {}
@@ -72,7 +77,7 @@ static_assert(Approach<Drop> && Approach<Tilt>);
 struct RingDistance {
   Vec3 gradient, across, around;    // unit, at right angles; across: in the meridian plane
   double bend_across, bend_around;  // 1/mm
-  Vec3 ring_curvature;  // 1/mm: of the circle round the tool's axis through s, whose tangent is `around`
+  Vec3 ring_curvature;              // 1/mm: of the circle round the tool's axis through s, along `around`
   // The Hessian's products with a vector along the three directions.
   struct Slope {
     double gradient, across, around;
@@ -85,10 +90,15 @@ struct RingDistance {
     return x.across * across.dot(y) + x.around * around.dot(y);
   }
 };
+// Requires: s is not on the major circle, where the gradient is 0/0. On the tool's axis any direction serves
+//   for that from the axis, and nothing bends round it.
 RingDistance ring_distance(const Tool& tool, const ToolPose& pose, const Vec3& s);
 
-// Derivatives of the arrival x at `p` by the implicit function theorem on distance(s(u, v), pose(x)) = 0. The
-// gradient is NaN where the motion is tangent to the ring there.
+// Derivatives of the arrival x at `p`.
+//
+// Method: the implicit function theorem on distance(s(u, v), pose(x)) = 0.
+// Requires: x = approach.arrival(p.s), finite.
+// Fails: gradient and Hessian stay NaN where the point does not come nearer to the ring with x: a tangent.
 template <Approach A>
 Derivatives arrival_derivatives(const Tool& tool, const A& approach, const SurfacePoint& p, double x) {
   Derivatives a;

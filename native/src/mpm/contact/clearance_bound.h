@@ -10,7 +10,10 @@ namespace mpm {
 // Least value of f + g1 a + g2 b + h11 a^2 + h12 a b + h22 b^2 over a, b in [-1, 1].
 double least_quadratic(double f, double g1, double g2, double h11, double h12, double h22);
 
-// One tool at one pose; asks may come from several threads.
+// One tool at one pose.
+//
+// Requires: the tool outlives it; a finite pose with a unit axis, in the frame of the cells.
+// Threads: any number may ask one.
 class ClearanceBound {
  public:
   ClearanceBound(const Tool& tool, const ToolPose& pose);

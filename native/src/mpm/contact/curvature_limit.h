@@ -12,6 +12,8 @@ namespace mpm {
 // ring's curvature along u1: singular at k* = -det A / (p^T adj(A) p), and k(b) = cos / (Ro + Ri cos) with
 // cos = n.v1 cos b - n.w1 sin b. A contact held by a border is limited by the curvature along the border
 // only; at a corner nothing limits.
+//
+// Requires: minor_radius > 0; `insert` touches at `at`, which is the point of `first_contact`.
 double curvature_limit(const Tool& tool,
                        const Insert& insert,
                        const SurfacePoint& at,

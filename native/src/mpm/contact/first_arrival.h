@@ -11,6 +11,8 @@ namespace mpm {
 // Bézier patch it is in and handed to the neighbour where it leaves it; on a crease or a face's edge the
 // contact stays there. The result's arrival is never later than the start's. Outside the trim the start
 // itself is improved along the trimming polygon.
+//
+// Fails: an infinite value where neither the start nor, of a trimmed face, its polygon ever meets the ring.
 template <Approach A>
 PatchMinimum first_arrival(const Tool& tool, const A& approach, const Face& face, double u, double v);
 

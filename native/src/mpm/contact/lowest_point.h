@@ -6,8 +6,8 @@
 
 namespace mpm {
 
-// Least distance of the ring from a patch near (u, v): Newton's iteration on the signed distance at a fixed
-// pose. What cannot lead under `floor` (mm) is not followed to the end.
+// Least signed distance (mm) of a patch from the ring near (u, v), by PatchSearch at a fixed pose: searched,
+// not proven. What cannot lead under `floor` (mm) is not followed to the end.
 PatchMinimum lowest_point(
     const Tool& tool, const ToolPose& pose, const BezierPatch& patch, double u, double v, double floor);
 

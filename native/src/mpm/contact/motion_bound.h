@@ -20,7 +20,9 @@ struct Quadratic3 {
 double least_quadratic(const Quadratic3& q);
 
 // The tool between two poses: the tip on a straight line, the axis on a great circle, both running evenly
-// with t from 0 to 1. Requires axes that are not opposite; they need not be exactly of unit length.
+// with t from 0 to 1. The axes need not be exactly of unit length.
+//
+// Requires: axes that are not opposite: certify_motion() sees to it.
 class ToolMotion {
  public:
   ToolMotion(const Tool& tool, const ToolPose& from, const ToolPose& to);
@@ -64,7 +66,10 @@ struct MovingCell {
 // tool about its tip, so that a point at distance L from the tip is off by at most axis_deviation L.
 MovingCell moving_cell(const QuadraticCell& cell, const ToolMotion::Stretch& stretch, double axis_deviation);
 
-// The tool in one stretch of a motion; asks may come from several threads.
+// The tool in one stretch of a motion.
+//
+// Requires: the tool outlives it.
+// Threads: any number may ask one.
 class MotionBound {
  public:
   // `magnitude`: the largest coordinate of the motion's tips, mm, for the rounding margin.

@@ -24,8 +24,8 @@ struct PatchMinimum {
   double value = kInfinity;
   double u = kNaN, v = kNaN;
   Vec3 s = Vec3::Constant(kNaN);
-  bool on_border_u = false,
-       on_border_v = false;  // held by the border u = const (v = const): not a critical point
+  // Held by the border u = const (v = const): not a critical point.
+  bool on_border_u = false, on_border_v = false;
   int newton_steps = 0;
 };
 
@@ -40,9 +40,8 @@ inline constexpr double kGained = 1e-13;
 // many are taken.
 inline constexpr int kPolishingSteps = 2;
 inline constexpr double kHeld = 1e-8;  // slope above which a border contact is held by the border
-inline constexpr double kConvexPart =
-    1e-9;  // least eigenvalue against the greatest that Newton's step trusts
-inline constexpr double kLiftedPart = 1e-3;  // what it is lifted to otherwise
+// The least eigenvalue, as part of the greatest, that Newton's step trusts, and what it is lifted to else.
+inline constexpr double kConvexPart = 1e-9, kLiftedPart = 1e-3;
 
 struct FreeParameters {
   bool u, v;
@@ -108,6 +107,11 @@ inline Vec2 ring_bend(const Derivatives& a, const SurfacePoint& p, const Vec2& s
 // Minimises `objective` over a patch. An Objective has
 //   double value(const Vec3& s) const                                   (+infinity where it has none)
 //   Derivatives derivatives(const SurfacePoint& p, double value) const
+//
+// Requires: objective and patch outlive it.
+// Guarantees: what it finds is in the patch, borders included.
+// Fails: an infinite value where the start has none; a minimum that is not found in kMaxNewtonSteps is left
+//   at the best point so far. A local minimum: nothing is proven of others.
 template <class Objective>
 class PatchSearch {
  public:

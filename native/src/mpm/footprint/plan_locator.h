@@ -17,14 +17,17 @@ struct Seed {
   Vec3 s;
 };
 
-// Samples of all faces, at most about `spacing` apart in space, sorted into a plan grid. Samples outside the
-// trim are left out. Requires spacing > 0; the spacing is widened so that there are at most a few million
-// samples.
+// Samples of all faces, at most about `spacing` (mm) apart in space, sorted into a plan grid. Samples outside
+// the trim are left out. The spacing is widened so that there are at most a few million samples.
+//
+// Requires: the model outlives it.
+// Fails: std::invalid_argument for a spacing that is not positive.
+// Threads: any number may ask one.
 class PlanLocator {
  public:
   PlanLocator(const SurfaceModel& model, double spacing);
 
-  double spacing() const { return spacing_; }
+  double spacing() const { return spacing_; }  // as widened
 
   // Calls visit(seed) for the samples within `radius` of `at` in plan, in a fixed order.
   template <class Visit>

@@ -26,8 +26,10 @@ inline constexpr std::size_t kMaxPositions = 10'000'000;
 
 // Passes over the rectangle [lo, hi] of the plane, which is turned with the feed direction: its first corner
 // starts the first pass; the last pass and the last point of a pass lie on the far border even when the step
-// does not divide the width (thesis section 5.1: passes at x = 0, 18 ... 144, 150). Throws
-// std::invalid_argument for steps that are not positive or give no or more than kMaxPositions points.
+// does not divide the width (thesis section 5.1: passes at x = 0, 18 ... 144, 150).
+//
+// Fails: std::invalid_argument for steps that are not positive or give more than kMaxPositions points, a
+//   rectangle that is empty or that a negative margin takes off, and numbers that are not finite.
 Footprint raster(const Vec2& lo, const Vec2& hi, const RasterOptions& options);
 
 }  // namespace mpm

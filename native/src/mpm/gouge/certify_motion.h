@@ -14,8 +14,7 @@ namespace mpm {
 
 struct MotionCertificate {
   Verdict verdict = Verdict::undecided;
-  // mm: the clearance is proven never to be less (where nothing came near: 0, or what was asked for)
-  double lo = -kInfinity;
+  double lo = -kInfinity;         // mm: proven never to be less (nothing near: 0, or what was asked for)
   double hi = kInfinity;          // mm: the clearance at the witness
   double time = kNaN;             // of the witness, 0 to 1
   Vec3 s = Vec3::Constant(kNaN);  // the witness: a surface point
@@ -23,8 +22,7 @@ struct MotionCertificate {
 };
 
 struct CertifyMotionOptions {
-  // mm: what may be cut in and still be called free; negative: the clearance that free asks for
-  double tolerance = 0.01;
+  double tolerance = 0.01;         // mm: what a free motion may cut in; negative: the clearance it must keep
   double axis_deviation = 0.0;     // radians: what the real axis may be off the great circle
   std::uint32_t budget = 100'000;  // cells; beyond it the verdict is undecided
 };
@@ -40,7 +38,8 @@ struct CertifyMotionOptions {
 // the witness. Unless free, lo is -infinity.
 //
 // Fails: undecided when the budget ran out, or a point was found so deep that the deviation could take it
-// beyond the tolerance, or the call was cancelled, or the axes are opposite.
+// beyond the tolerance, or the call was cancelled, or the axes are opposite. Nothing is checked: that is up
+// to certify_motions().
 //
 // Threads: any number may share the tree.
 MotionCertificate certify_motion(const CellTree& tree,
@@ -56,9 +55,12 @@ struct Motion {
   CertifyMotionOptions options;
 };
 
-// Every motion in parallel; the result does not depend on the number of threads. Motions that a cancel left
-// out are undecided. Throws std::invalid_argument for numbers that are not finite, axes that are not unit
-// vectors, and a deviation that is negative.
+// Every motion, in parallel.
+//
+// Requires: a tree of the tool's judge_cells().
+// Guarantees: one certificate a motion, in their order, whatever the number of threads.
+// Fails: std::invalid_argument for a wrong tool (check_tool), numbers that are not finite, axes that are not
+//   unit vectors, and a deviation that is negative. What a cancel left out, or broke off, is undecided.
 std::vector<MotionCertificate> certify_motions(const CellTree& tree,
                                                const Tool& tool,
                                                const std::vector<Motion>& motions,

@@ -44,7 +44,7 @@ struct CertifyOptions {
 // Guarantees: free: lo >= -tolerance; gouge: a surface point deeper than the tolerance is in `witness`.
 //
 // Fails: undecided, with lo = -infinity, when the budget ran out or the search stopped at a violation that is
-// within the tolerance.
+// within the tolerance. Nothing is checked, and no cancel is looked at: a budget ends it.
 //
 // Threads: any number may share the tree.
 Certificate certify_pose(const CellTree& tree,

@@ -10,18 +10,20 @@ namespace mpm {
 
 struct SampledClearance {
   double distance;     // mm, least signed distance found: the true clearance is at most this
-  Vec3 witness;        // the surface point that has it
+  Vec3 witness;        // the surface point that has it; NaN: none is within the range
   std::uint32_t face;  // its face
 };
 
+// Requires: the model outlives it; a tool that passes check_tool().
+// Threads: any number may ask one.
 class ClearanceSampler {
  public:
   ClearanceSampler(const SurfaceModel& model, const Tool& tool);
 
   // Least signed distance of sampled surface points (trimmed away ones left out) from the tool's body at
-  // `pose`, refined round the lowest samples. Surfaces farther than `range` mm count as `range` away. Same
-  // answer from any thread. Tiles whose box proves that they cannot be among the lowest are not sampled; the
-  // answer is that of sampling all.
+  // `pose`, refined round the lowest samples. Surfaces farther than `range` mm count as `range` away. Tiles
+  // whose box proves that they cannot be among the lowest are not sampled; the answer is that of sampling
+  // all.
   SampledClearance operator()(const ToolPose& pose, double range) const;
 
  private:

@@ -6,7 +6,9 @@
 
 namespace mpm {
 
-// Its smallest cells are a sixth of the cutter's radius; proofs go on below them. The model must outlive it.
+// Its smallest cells are a sixth of the cutter's radius; proofs go on below them.
+//
+// Requires: the model outlives it.
 inline CellTree judge_cells(const SurfaceModel& model, const Tool& tool) {
   constexpr double kLeafPerRadius = 1.0 / 6;
   return CellTree(model, tool.radius() * kLeafPerRadius);

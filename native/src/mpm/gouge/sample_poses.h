@@ -13,6 +13,8 @@ namespace mpm {
 // One number a pose, in parallel: the least signed distance (mm) of sampled surface points from the tool, at
 // most the cutter's radius.
 //
+// Requires: poses in the model's frame, axes of unit length; a tool that passes check_tool().
+//
 // Guarantees: the clearance of the pose is at most this; nothing is proven the other way. The result does not
 // depend on the number of threads.
 //

@@ -5,8 +5,8 @@
 
 namespace mpm {
 
-// Readings of the five axes. The linear ones are the position of the spindle gauge point with both rotary
-// axes at zero.
+// Readings of the five axes, mm and radians. The linear ones are the position of the spindle gauge point with
+// both rotary axes at zero.
 struct Joints {
   Vec3 linear = Vec3::Zero();
   Vec2 rotary = Vec2::Zero();
@@ -17,7 +17,9 @@ struct CutterLocation {
   Vec3 axis;  // part frame, unit, tip to spindle
 };
 
-// Direction of the tool in the part's frame at the rotary readings.
+// Direction of the tool, unit, in the part's frame at the rotary readings.
+//
+// Requires, as all that follow: a chain from checked(). Limits are not looked at.
 Vec3 tool_axis(const KinematicChain& chain, const Vec2& rotary);
 
 // With R the turn about an axis' line, product of exponentials from the part to the tool:

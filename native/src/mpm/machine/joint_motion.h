@@ -23,12 +23,12 @@ struct AxisWay {
 // the largest distance there is.
 //
 // Method: of the difference e(s) of the two ways, less what joins its ends evenly, the second derivative is
-// that
-//         of e, so that it is at most |e''(1/2)| / 8 + max|e'''| / 48, the solution of
-//         h'' = -(|e''(1/2)| + |s - 1/2| max|e'''|) with h(0) = h(1) = 0 at s = 1/2. The second derivative
-//         is evaluated, the third bounded by the product rule over the chain, whose turns are by constant
-//         rates. To this comes the larger of |e(0)| and |e(1)|.
-// An axis bound of pi says nothing: the motion turns too far for a bound.
+//   that of e, so that it is at most |e''(1/2)| / 8 + max|e'''| / 48, the solution of
+//   h'' = -(|e''(1/2)| + |s - 1/2| max|e'''|) with h(0) = h(1) = 0 at s = 1/2. The second derivative is
+//   evaluated, the third bounded by the product rule over the chain, whose turns are by constant rates. To
+//   this comes the larger of |e(0)| and |e(1)|.
+// Requires: a chain from checked().
+// Fails: an axis bound of pi says nothing: the motion turns too far for a bound.
 MotionDeviation deviation_bound(const KinematicChain& chain,
                                 const PartSetup& setup,
                                 const Joints& from,

@@ -51,12 +51,13 @@ struct JointPath {
 // preferred, then time (of the slower rotary axis, from reading zero). What cannot be avoided is done and
 // marked in `status`.
 //
-// Requires:   chain from checked(); equal lengths. A pose that is not finite is the caller's mistake.
+// Requires: a chain from checked().
 // Guarantees: one entry a pose; in cuts both unwound axes turn at most pi a move; solutions change only where
-//             the move does not cut or within the pole cone, where both meet (else forced_turn); an axis with
-//             limits keeps whole turns that fit them where any do.
-// Fails:      std::invalid_argument.
-// Source:     the shortest-path view of Makhanov and Munlin (2006); costs are ours.
+//   the move does not cut or within the pole cone, where both meet (else forced_turn); an axis with limits
+//   keeps whole turns that fit them where any do.
+// Fails: std::invalid_argument for arrays of different length, a tip that is not finite, an axis that is not
+//   a unit vector, a negative pole cone. What no joints can do is a status.
+// Source: the shortest-path view of Makhanov and Munlin (2006); costs are ours.
 JointPath joint_path(const KinematicChain& chain, const PosePath& path, const JointPathOptions& options);
 
 }  // namespace mpm

@@ -55,14 +55,17 @@ struct KinematicChain {
 
 // What the set-up adds to the machine.
 struct PartSetup {
-  Vec3 part_origin =
-      Vec3::Zero();          // origin of the part's frame in the machine frame, rotary axes at zero offset
+  // Origin of the part's frame in the machine frame, rotary axes at their zero offsets.
+  Vec3 part_origin = Vec3::Zero();
   double tool_length = 0.0;  // gauge point to tip
 };
 
-// The chain with its directions normalised. Throws std::invalid_argument that names the axis and what is
-// wrong: a table axis after a head axis, parallel rotary axes, a second axis along the spindle, limits or
-// velocities out of order.
+// The chain with its directions normalised; nothing else is changed.
+//
+// Fails: std::invalid_argument that names the axis and what is wrong: a table axis after a head axis,
+//   parallel rotary axes, a second axis along the spindle, names that are equal or not A, B or C, a sense
+//   that is not 1 or -1, directions, origins and offsets that are not finite, limits out of order, velocities
+//   and accelerations that are not positive.
 KinematicChain checked(const KinematicChain& chain);
 
 }  // namespace mpm

@@ -18,14 +18,15 @@ struct OrientationSolutions {
 
 // Solves Rot(a1, q1) · Rot(a2, q2) · spindle_axis = axis.
 //
-// Method:     two lines meeting in a point (Paden and Kahan's second subproblem; Murray, Li and Sastry 1994,
-// ch. 3), the
-//             angle at a2 by the half-angle formula of the spherical triangle a2, a1, tool, which keeps full
-//             relative accuracy at the pole and at the end of the reach.
-// Requires:   a chain from checked(); |axis| = 1.
+// Method: two lines meeting in a point (Paden and Kahan's second subproblem), the angle at a2 by the
+//   half-angle formula of the spherical triangle a2, a1, tool, which keeps full relative accuracy at the pole
+//   and at the end of the reach.
+// Source: Murray, Li and Sastry 1994, ch. 3.
+// Requires: a chain from checked(); |axis| = 1, in the part's frame.
 // Guarantees: a reachable axis is met to a few roundoffs (tests: 1e-12) by both solutions, everywhere. At the
-// pole the
-//             first axis is free and reads its zero offset.
+//   pole the first axis is free and reads its zero offset.
+// Fails: an axis out of reach is marked, not thrown: `reachable`.
+// Threads: solve() may be asked from any number.
 class OrientationInverse {
  public:
   explicit OrientationInverse(const KinematicChain& chain);

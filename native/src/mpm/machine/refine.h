@@ -33,6 +33,10 @@ inline constexpr double kConeShare = 0.375;
 // solution changes, while the tool hardly moves. No move gets more than kMaxPieces pieces; one that needs
 // more ends with the tolerance not kept, and so does a rapid in which the rotary solution changes or an axis
 // rewinds.
+//
+// Requires: a chain from checked().
+// Fails: std::invalid_argument for tolerances and a step that are not positive, and as joint_path() does. A
+//   tolerance that is not kept is told by `keeps`.
 inline constexpr std::size_t kMaxPieces = 4096;
 RefinedPath refine(const KinematicChain& chain, const PosePath& path, const RefineOptions& options);
 

@@ -20,7 +20,8 @@ bool is_unwound(const RotaryAxis& axis);
 // The same position of the axis, whole turns away, nearest to `near`.
 double nearest_turn(double reading, double near);
 
-// Both solutions with all the whole turns that the limits allow (the least violating one where none fits).
+// Both solutions with all the whole turns that the limits allow (the least violating one where none fits);
+// of an unwound axis the turn nearest to its zero offset. Never empty.
 std::vector<RotaryCandidate> rotary_candidates(const KinematicChain& chain,
                                                const OrientationSolutions& solutions);
 

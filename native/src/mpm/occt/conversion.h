@@ -18,7 +18,9 @@ struct ConvertedSurface {
 
 // Conversion by OpenCASCADE. B-splines and Béziers keep their poles; unbounded surfaces are cut to the face's
 // UV box first; offset surfaces without an exact form and degrees over 10 are approximated (`deviation_mm`).
-// Throws std::invalid_argument when the kernel cannot do it.
+//
+// Fails: std::invalid_argument for a face without a surface or a range of parameters, and where the
+//   approximation gives nothing; OpenCASCADE's own Standard_Failure, which face_arrays() translates.
 ConvertedSurface to_bspline(const TopoDS_Face& face);
 
 }  // namespace mpm::occt

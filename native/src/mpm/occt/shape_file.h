@@ -7,8 +7,11 @@
 namespace mpm::occt {
 
 // Reads a part, converted to mm. The format is told by the file's first bytes, not by its ending. A BREP file
-// has no unit: it is taken to be in mm. Calls from several threads are serialized (the exchange library has
-// global state). Throws std::invalid_argument that names the file and what is wrong.
+// has no unit: it is taken to be in mm.
+//
+// Fails, as all that follow: std::invalid_argument that names the file and what is wrong.
+// Threads: any; calls wait for each other, those of all three functions (the exchange library has global
+//   state).
 TopoDS_Shape read_shape(const std::string& path);
 
 // The text of a BREP file, such as FreeCAD's Shape.exportBrepToString gives.

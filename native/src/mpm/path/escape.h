@@ -33,9 +33,11 @@ struct Escape {
 // The way out of `position` with its axis kept: along the axis, half-way between the axis and z, or along z:
 // the first of them that is proven (certify_motion, deviations included); when none is, the first that
 // samples find free; when all are blocked, the one that cuts least (`blocked` says so). Samples are taken at
-// poses at most max(check_step, clearance) apart; what they find blocked is not tried to be proven. Requires
-// position.axis.z > 0, position.tip.z < safe_z and check_step > 0. Once `context` is cancelled the answer
-// means nothing.
+// poses at most max(check_step, clearance) apart; what they find blocked is not tried to be proven.
+//
+// Requires: position.axis.z > 0, position.tip.z < safe_z, check_step > 0: link_passes() sees to it.
+// Fails: `blocked`; once `context` is cancelled the answer means nothing.
+// Threads: any number may share sampler and cells.
 Escape find_escape(const ClearanceSampler& sampler,
                    const CellTree& cells,
                    const Tool& tool,

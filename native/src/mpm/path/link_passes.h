@@ -21,8 +21,7 @@ struct PathPositions {
 };
 
 struct LinkOptions {
-  double safe_clearance =
-      5.0;  // mm between the highest surface and the lowest point of the tool on the safe plane
+  double safe_clearance = 5.0;         // mm from the highest surface to the tool's lowest point, on the plane
   double approach_distance = 2.0;      // mm, how near to the surfaces a rapid may come
   double gouge = 0.01;                 // mm, how much deeper than its position a plunge or retract may cut
   double cut_gouge = 0.2;              // mm, the same for a cut between its two positions
@@ -50,12 +49,16 @@ struct LinkOptions {
 // approach_distance clear as far as sampling tells. Plunges and retracts that are `proven` cut in no deeper
 // than `depth`, rapids that are `proven` not at all, the real tip and axis being off by their deviations; the
 // others are sampled, and `blocked` where a sample is more than `gouge` deeper than their position. One-way
-// and zigzag passes differ only in the positions' order. A cancelled call returns an empty path.
+// and zigzag passes differ only in the positions' order.
 //
 // Clearances other than the proven ones are sampled (gouge/clearance_sampler.h), of the tool's whole body
-// against all faces: no proof. Throws std::invalid_argument for arrays of different length, usable positions
-// with a non-finite tip or an axis that is not a unit vector from the +z side, and options that are not
-// positive.
+// against all faces: no proof.
+//
+// Requires: a tree of the tool's judge_cells().
+// Fails: std::invalid_argument for a wrong tool (check_tool), arrays of different length, usable positions
+//   with a tip that is not finite or an axis that is not a unit vector from the +z side, options that are not
+//   positive, and deviations that are negative or, of the tip, more than `depth`. A cancelled call returns an
+//   empty path.
 ToolPath link_passes(const CellTree& cells,
                      const Tool& tool,
                      const PathPositions& positions,

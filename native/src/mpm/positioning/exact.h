@@ -10,7 +10,11 @@ namespace mpm {
 // undecided.
 std::map<std::string, double> exact_defaults();
 
-// Requires minor_radius > 0 (a sharp edge has no insert to roll on). Any spin.
+// Any spin.
+//
+// Requires: options.numbers complete, as make_method() hands them over; the model outlives the method.
+// Fails: std::invalid_argument for a tool with minor_radius 0 (a sharp edge has no insert to roll on), a
+//   gouge_mm that is not positive, and a cell_budget outside 1000 to 1e9.
 std::unique_ptr<Method> make_exact(const SurfaceModel& model, const Tool& tool, const MethodOptions& options);
 
 }  // namespace mpm

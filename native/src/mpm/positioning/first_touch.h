@@ -9,7 +9,8 @@
 
 namespace mpm {
 
-// A pose and the certificate of that very pose, made together; there is no other way to get one.
+// A pose and the certificate of that very pose, made together; there is no other way to get one. Requires
+// what certify_pose() does.
 class JudgedPose {
  public:
   JudgedPose(const CellTree& tree, const Tool& tool, const ToolPose& at, const CertifyOptions& options)
@@ -74,7 +75,7 @@ class FirstTouch {
                    double limit,
                    Counters& counters) const;
 
-  // The first arrival on a face near (u, v).
+  // The first arrival on a face near (u, v), by first_arrival(). Adds to the counters, as all that follow.
   template <Approach A>
   Touch refine(const A& approach, std::uint32_t face, double u, double v, Counters& counters) const;
 

@@ -92,18 +92,21 @@ class DroppedTool {
 //
 // Fails: what the mathematics brings is a status, never thrown.
 //
-// Threads: place() and drop() may be called from several.
+// Threads: place() and drop() may be called from several, each with counters of its own, which are added to.
 class Method {
  public:
   virtual ~Method() = default;
   // The tool over plan point `at`.
   virtual Placement place(const Vec2& at, Counters& counters) const = 0;
   // The tool at a given contact, come down from the open side. `tilt` of the result is the contact angle: 0
-  // on the ring's equator, 90 degrees on its bottom. Throws std::invalid_argument where the method has no
-  // such entry.
+  // on the ring's equator, 90 degrees on its bottom.
+  //
+  // Fails: std::invalid_argument where the method has no such entry. What is given is not checked: that is up
+  //   to place_all().
   virtual Placement place(const GivenContact& at, Counters& counters) const;
-  // The tool dropped over plan point `at`, ready for any spin. Throws std::invalid_argument where the method
-  // cannot spin.
+  // The tool dropped over plan point `at`, ready for any spin; never null.
+  //
+  // Fails: std::invalid_argument where the method cannot spin.
   virtual std::unique_ptr<DroppedTool> drop(const Vec2& at, Counters& counters) const;
 };
 

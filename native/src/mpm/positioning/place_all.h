@@ -17,9 +17,11 @@ struct Placements {
 // Every point with the method's own spin.
 //
 // Guarantees, as all that follow: one position a start, in the order of the starts; the result does not
-// depend on the number of threads. What a cancelled context left out is not_computed.
+// depend on the number of threads. What a cancelled context left out is not_computed; the counters are of
+// what was done.
 Placements place_all(const Method& method, const std::vector<Vec2>& points, Context& context);
-// Every point with every spin (radians), point by point: position i * spins.size() + k has spin k.
+// Every point with every spin (radians), point by point: position i * spins.size() + k has spin k. The
+// drop over a point is done once.
 //
 // Fails: std::invalid_argument where the method cannot spin, and for a spin that is not finite.
 Placements place_spins(const Method& method,

@@ -20,6 +20,9 @@ struct SpinCandidate {
 // where no spin gives a second contact, the position without spin. Never empty. Between two of the rules'
 // samples one change of sign is found; a pair of solutions between two samples is found where the best of
 // three neighbours leads to it. Once the context is cancelled the search ends at once, with what it has.
+//
+// Method: samples round the circle, then false position (Illinois) between those of opposite excess.
+// Requires: rules with wanted > 0 and samples >= 4, which place_spaced() checks.
 std::vector<SpinCandidate> spin_candidates(const DroppedTool& dropped,
                                            const SpacingRules& rules,
                                            Counters& counters,

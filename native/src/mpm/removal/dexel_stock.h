@@ -21,14 +21,17 @@ struct DexelGrid {
   double node(int axis, std::ptrdiff_t index) const { return lo[axis] + (double(index) + 0.5) * cell; }
 };
 
-// Throws std::invalid_argument for an empty box, a cell that is not positive or is so small that there are
-// more than kMaxDexels dexels.
+// Fails: std::invalid_argument for an empty box, a cell that is not positive or is so small that there are
+//   more than kMaxDexels dexels.
 DexelGrid make_dexel_grid(const Vec3& lo, const Vec3& hi, double cell);
 
 inline constexpr double kMaxDexels = 2e8;
 
 // All dexels along one axis; those across are numbered (u, v) by the nodes along axes axis + 1 and axis + 2
-// (cyclic).
+// (cyclic). Whole at first: one span from end to end of the box.
+//
+// Requires: a grid of make_dexel_grid().
+// Threads: different tiles may be cut at once; nothing is to be read meanwhile.
 class DexelField {
  public:
   DexelField(const DexelGrid& grid, int axis);
@@ -41,7 +44,7 @@ class DexelField {
   const Span* end(std::size_t u, std::size_t v) const;
 
   std::size_t tiles() const { return tiles_.size(); }
-  // Takes what is swept out of the dexels of one tile.
+  // Takes what is swept out of the dexels of one tile; a cancelled call leaves them as they were.
   void cut_tile(std::size_t tile, const ToolSweep& sweep, const Context& context);
 
   double length() const;  // mm of material on all dexels together
@@ -80,9 +83,12 @@ struct DexelStock {
 // Bytes that a stock on this grid takes while each dexel holds one span.
 std::size_t dexel_bytes(const DexelGrid& grid);
 
-// Takes everything that the tool sweeps out of the stock. The ends of the spans are exact to kRayEpsilon but
-// for what docs/removal.md says of a stroke's second dip. The same bytes for any number of threads. A
-// cancelled call leaves the stock half cut.
+// Takes everything that the tool sweeps out of the stock.
+//
+// Requires: stock and sweep in one frame; nobody else uses the stock meanwhile.
+// Guarantees: the ends of the spans are exact to kRayEpsilon but for what docs/removal.md says of a stroke's
+//   second dip; the same bytes for any number of threads.
+// Fails: a cancelled call leaves some tiles cut and the others whole.
 void cut_stock(DexelStock& stock, const ToolSweep& sweep, Context& context);
 
 }  // namespace mpm

@@ -20,9 +20,11 @@ struct NormalRays {
 
 // Lowers each height to where the material that stands on the true surface now ends: above 0 what remains,
 // below 0 how deep the tool has cut in. A part of the ray that is cut out within the material does not count.
-// The result is exact to kRayEpsilon but for what docs/removal.md says of a stroke's second dip; it does not
-// depend on the order of the moves or the number of threads. A cancelled call leaves the heights half done.
-// Throws std::invalid_argument for arrays of different length or directions that are not unit vectors.
+//
+// Guarantees: exact to kRayEpsilon but for what docs/removal.md says of a stroke's second dip; the same for
+//   any order of the moves and any number of threads.
+// Fails: std::invalid_argument for arrays of different length, origins that are not finite, directions that
+//   are not unit vectors, and a negative `below`. A cancelled call leaves the heights half done.
 void cut_rays(NormalRays& rays, const ToolSweep& sweep, Context& context);
 
 }  // namespace mpm

@@ -18,9 +18,12 @@ struct Overcut {
 // at most the true one; unlike a ray it needs no outer side of the face, and near an edge it is no deeper
 // than the tool is. It is looked for every kOvercutStep of the way wherever a greater one is possible, and
 // refined round the deepest: exact but for a second dip that is less deep at all looks and deeper between
-// two, by kOvercutStep^2 / (8 minor_radius), 0.05 um at Ri = 6 mm. Does not depend on the number of threads.
-// A cancelled call leaves points at depth 0. Throws std::invalid_argument as check_tool and check_swept_path
-// do.
+// two, by kOvercutStep^2 / (8 minor_radius), 0.05 um at Ri = 6 mm.
+//
+// Requires: points and path in one frame, mm.
+// Guarantees: one depth and move a point, whatever the number of threads.
+// Fails: std::invalid_argument as check_tool and check_swept_path do. A cancelled call leaves points at
+//   depth 0.
 Overcut find_overcut(const std::vector<Vec3>& points,
                      const Tool& tool,
                      const SweptPath& path,

@@ -16,8 +16,8 @@ struct SweptPath {
   std::vector<std::uint8_t> removes;  // does the move take material away? [0] is not read
 };
 
-// Throws std::invalid_argument for arrays of different length, for a tip that is not finite and for an axis
-// that is not a unit vector.
+// Fails: std::invalid_argument for arrays of different length, for a tip that is not finite and for an axis
+//   that is not a unit vector.
 void check_swept_path(const SweptPath& path);
 
 // Where the tool is at one time of a stroke, and how fast it goes there (per unit of the stroke's time).
@@ -52,6 +52,10 @@ inline constexpr double kStrokeAngle = 0.05;  // radians a stroke turns at most
 double longest_travel(const Tool& tool);
 
 // The strokes of all removing moves, in their order.
+//
+// Requires: what check_tool() and check_swept_path() let pass; no move between opposite axes (pose_between).
+// Guarantees: the strokes of a move take equal times; to rounding none turns more than kStrokeAngle or
+//   travels farther than longest_travel().
 std::vector<Stroke> make_strokes(const Tool& tool, const SweptPath& path);
 
 }  // namespace mpm

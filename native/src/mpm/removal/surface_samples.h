@@ -18,8 +18,11 @@ struct SurfaceSamples {
 };
 
 // Samples at most about `spacing` mm apart on a grid of the parameters of each face to machine, and along its
-// trimming loops (points without triangles). Throws std::invalid_argument for a spacing that is not positive
-// or gives more than kMaxSamples points.
+// trimming loops (points without triangles). Of the grid only the range of u and v is taken whose surface may
+// lie in `region`: points beside it come along.
+//
+// Fails: std::invalid_argument for a spacing that is not positive or gives more than kMaxSamples points. A
+//   cancelled call leaves points and normals without values.
 SurfaceSamples sample_surfaces(const SurfaceModel& model,
                                double spacing,
                                const Box3& region,

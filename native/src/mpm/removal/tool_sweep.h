@@ -10,9 +10,11 @@
 
 namespace mpm {
 
+// Threads: any number may ask one.
 class ToolSweep {
  public:
-  // Throws std::invalid_argument as check_tool and check_swept_path do.
+  // Fails: std::invalid_argument as check_tool and check_swept_path do, and for a tool of more pieces than a
+  //   mask has bits.
   ToolSweep(const Tool& tool, const SweptPath& path);
 
   const std::vector<Stroke>& strokes() const { return strokes_; }

@@ -14,10 +14,12 @@ struct SurfacePoint {
   Vec3 s, su, sv, suu, suv, svv;
 };
 
+// Threads: any number may share one.
 class BezierPatch {
  public:
   // `control`: (degree_u+1)*(degree_v+1) homogeneous points (w x, w y, w z, w), row-major in u; weights
-  // positive. `box`: the part of the face's parameter plane that the patch covers.
+  // positive. `box`: the part of the face's parameter plane that the patch covers. Nothing of it is checked:
+  // BSplineSurface does.
   BezierPatch(int degree_u, int degree_v, const ParamBox& box, std::vector<Vec4> control);
 
   int degree_u() const { return degree_u_; }

@@ -7,12 +7,16 @@
 
 namespace mpm {
 
+// Never changes once it is made.
+//
+// Threads: any number may share one.
 class BSplineSurface {
  public:
   // `knots_u`, `knots_v`: flat, non-decreasing, multiplicities written out, poles + degree + 1 of them; the
   // ends need not be clamped; interior multiplicity at most the degree. `poles`: nu*nv points, row-major in
-  // u. `weights`: empty (polynomial) or nu*nv positive numbers. Throws std::invalid_argument naming what is
-  // wrong.
+  // u. `weights`: empty (polynomial) or nu*nv positive numbers.
+  //
+  // Fails: std::invalid_argument that names the argument that is not so.
   BSplineSurface(int degree_u,
                  int degree_v,
                  const std::vector<double>& knots_u,
@@ -31,6 +35,7 @@ class BSplineSurface {
 
   // The patch whose parameter box holds (u, v); at a break the one after it; outside the domain the nearest.
   const BezierPatch& patch_at(double u, double v) const;
+  // Beyond the domain the nearest patch is continued.
   Vec3 point(double u, double v) const { return patch_at(u, v).point(u, v); }
   SurfacePoint evaluate(double u, double v) const { return patch_at(u, v).evaluate(u, v); }
 

@@ -10,6 +10,7 @@
 
 namespace mpm {
 
+// Threads: any number may share one.
 class CellTree {
  public:
   struct Node {
@@ -26,14 +27,15 @@ class CellTree {
   };
 
   // Leaves are about `leaf_size` mm or less, or as small as `max_leaves` allows (at least one a Bézier
-  // patch). The model must outlive the tree.
+  // patch).
+  //
+  // Requires: the model outlives the tree; leaf_size > 0.
   CellTree(const SurfaceModel& model, double leaf_size, std::size_t max_leaves = 200'000);
 
   const SurfaceModel& model() const { return model_; }
   const std::vector<Node>& nodes() const { return nodes_; }
-  const std::vector<std::uint32_t>& roots() const {
-    return roots_;
-  }  // one a face that is not wholly trimmed away
+  // One a face that is not wholly trimmed away.
+  const std::vector<std::uint32_t>& roots() const { return roots_; }
 
   // Cells in fours; lanes that no cell fills repeat one that does.
   const std::vector<CellBatch>& batches() const { return batches_; }

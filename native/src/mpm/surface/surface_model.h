@@ -24,9 +24,12 @@ struct PatchRef {
   TrimRegion::Cover cover;  // inside or crossing: patches outside the trim are left out
 };
 
+// Never changes once it is made; all faces are in one frame, mm.
+//
+// Threads: any number may share one.
 class SurfaceModel {
  public:
-  // Requires at least one face that is not a check face.
+  // Fails: std::invalid_argument where all faces are check faces, or the trims leave nothing of any face.
   explicit SurfaceModel(std::vector<Face> faces);
   SurfaceModel(const SurfaceModel&) = delete;
   SurfaceModel& operator=(const SurfaceModel&) = delete;

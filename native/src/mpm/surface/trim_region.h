@@ -10,9 +10,15 @@ namespace mpm {
 
 // Closed polygons in (u, v) under the even-odd rule; no polygon: the whole plane (an untrimmed face). The
 // polygons approximate the exact trimming curves to the chord error with which they were sampled.
+//
+// Threads: any number may ask one.
 class TrimRegion {
  public:
   TrimRegion() = default;
+  // The last point of a loop is not repeated.
+  //
+  // Fails: std::invalid_argument for a loop of fewer than 3 points, a point that is not finite, and loops
+  //   that all lie on one line v = const.
   explicit TrimRegion(std::vector<std::vector<Vec2>> loops);
 
   bool everything() const { return loops_.empty(); }

@@ -28,7 +28,9 @@ struct Tool {
   double reach() const;   // largest distance of a point of the tool from its axis
 };
 
-// Throws std::invalid_argument naming the radius or length that is wrong.
+// Fails: std::invalid_argument that names the radius or length that is wrong: not finite, negative, 0 where
+//   it must not be, a recess over minor_radius, a flute_length not over it. All that follows requires a tool
+//   that passes.
 void check_tool(const Tool& tool);
 
 // Signed distance (mm) from the truncated cone of radius r0 at height z0 to r1 at z1 about the axis, at
@@ -70,7 +72,7 @@ struct ToolPose {
   }
 };
 
-// Signed distance of a point in space from the tool at `pose`.
+// Signed distance (mm) of a point in space from the tool at `pose`, both in one frame.
 double signed_distance(const Tool& tool, const ToolPose& pose, const Vec3& point);
 
 // A box that contains the tool at `pose`, grown by `margin` (mm).
