@@ -15,10 +15,10 @@ namespace mpm {
 // depth below it, or -infinity where that could not be proven within the budget. Requires finite poses.
 // Throws std::invalid_argument for a tolerance that is not positive. A cancelled context leaves the rest
 // undecided.
-std::vector<Certificate> certify_poses(const SurfaceModel& model,
-                                       const Tool& tool,
-                                       const std::vector<ToolPose>& poses,
-                                       double tolerance,
-                                       Context& context);
+std::vector<PoseCertificate> certify_poses(const SurfaceModel& model,
+                                           const Tool& tool,
+                                           const std::vector<ToolPose>& poses,
+                                           double tolerance,
+                                           Context& context);
 
 }  // namespace mpm
