@@ -25,7 +25,7 @@ MOVE_NAMES = {"G0": True, "G00": True, "G1": False, "G01": False}
 
 
 @dataclass(frozen=True)
-class Moves:
+class StoredMoves:
     """M moves in machining order, part frame, mm."""
 
     kind: list[str]  # cut, link, rapid, plunge or retract
@@ -50,7 +50,7 @@ class Feeds:
 
 
 def to_commands(moves: Any, feeds: Feeds) -> list[Path.Command]:
-    """`moves`: anything with the fields of Moves, such as a plan's path."""
+    """`moves`: anything with the fields of StoredMoves, such as a plan's path."""
     commands, heading = [], None
     rows = np.round(np.column_stack((moves.tip, moves.axis)), STORED_DECIMALS).tolist()
     for kind, number, row in zip(map(str, moves.kind), map(int, moves.pass_index), rows):
@@ -65,7 +65,7 @@ def to_commands(moves: Any, feeds: Feeds) -> list[Path.Command]:
     return commands
 
 
-def from_commands(commands: Iterable[Path.Command]) -> Moves:
+def from_commands(commands: Iterable[Path.Command]) -> StoredMoves:
     """The moves of a path made by `to_commands`, after any number of saves. Raises ValueError for other motion."""
     kinds: list[str] = []
     passes: list[int] = []
@@ -85,7 +85,7 @@ def from_commands(commands: Iterable[Path.Command]) -> Moves:
             raise ValueError(f"command {command.Name}: must be G0, G1 or a comment")
     table = np.array(rows).reshape(-1, 6)
     axis = table[:, 3:] / np.linalg.norm(table[:, 3:], axis=1, keepdims=True)  # stored with six decimals
-    return Moves(kinds, np.array(passes, dtype=int), table[:, :3], axis, np.array(feeds))
+    return StoredMoves(kinds, np.array(passes, dtype=int), table[:, :3], axis, np.array(feeds))
 
 
 def _words(command: Path.Command) -> list[float]:

@@ -54,7 +54,7 @@ class ToolpathNodes:
             self.root.addChild(root)
 
     def show(self, moves: Any, statuses: Sequence[str], first: Sequence[Any], second: Sequence[Any]) -> None:
-        """Draw `moves` (cl_path.Moves), the status of each ("" for none), and the contact points."""
+        """Draw `moves` (cl_path.StoredMoves), the status of each ("" for none), and the contact points."""
         self.cuts.set(*_strips(moves, [_color(k, s) for k, s in zip(moves.kind, statuses)], cuts=True))
         self.links.set(*_strips(moves, [_color(k, s) for k, s in zip(moves.kind, statuses)], cuts=False))
         self.axes.set(*_axes(moves))

@@ -14,7 +14,18 @@ from ..part import Scene, prepare
 from ..path import cl_file
 from ..pictures import deviation
 from ..pictures import section as section_picture
-from ..removal import Curve, CutReport, Moves, Section, bands, memory, mesh_file, plane_curve, planes, probed
+from ..removal import (
+    Curve,
+    CutReport,
+    PathMoves,
+    Section,
+    bands,
+    memory,
+    mesh_file,
+    plane_curve,
+    planes,
+    probed,
+)
 from .common import GOOD, NOT_GOOD, Files, add_threads, positive, write
 from .console import ProgressLine
 
@@ -92,7 +103,7 @@ def _curve(scene: Scene, plane: planes.NamedPlane) -> Curve:
         return plane_curve.curve(scene, plane.origin, plane.normal, removal.SECTION_SPACING_MM)
 
 
-def _path(spec: Job, scene: Scene, given: Namespace, progress: ProgressLine) -> Moves:
+def _path(spec: Job, scene: Scene, given: Namespace, progress: ProgressLine) -> PathMoves:
     """The moves to be cut, in the part's frame."""
     if given.program is None:
         faces = [*scene.machined, *scene.check]

@@ -78,7 +78,7 @@ def _texts(table: Floats) -> list[str]:
 
 
 @dataclass(frozen=True)
-class Moves:
+class ClMoves:
     """M moves read from a file, part frame, mm."""
 
     kind: Names  # (M,)
@@ -92,7 +92,7 @@ class Moves:
         return len(self.kind)
 
 
-def read_csv(path: str | FilePath) -> Moves:
+def read_csv(path: str | FilePath) -> ClMoves:
     """The moves of a cl.csv, ours or not: columns in any order; only the tip and the axis must be there.
 
     Raises InputError that names the file and the line, what is wrong and what would be right."""
@@ -122,12 +122,12 @@ class _Reader:
                     f"{path}:{line}: must have {len(names)} columns like the header, got {len(row)}"
                 )
 
-    def moves(self) -> Moves:
+    def moves(self) -> ClMoves:
         poses = np.column_stack([self._numbers(name) for name in POSE_COLUMNS])
         lengths = np.linalg.norm(poses[:, 3:], axis=1)
         for i in np.flatnonzero(np.abs(lengths - 1) > AXIS_LENGTH_SLACK)[:1]:
             raise self._error(int(i), f"the axis must have length 1, got {lengths[i]:.6g}")
-        return Moves(
+        return ClMoves(
             kind=self._kinds(),
             pass_index=self._passes(),
             tip=poses[:, :3],

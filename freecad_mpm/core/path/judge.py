@@ -11,7 +11,7 @@ from ..base import Flags, Floats, Names, Stages
 from ..job import PROVEN, Job, cut_depth_mm
 from ..part import prepare
 from .certify import certify
-from .cl_file import Moves
+from .cl_file import ClMoves
 
 
 @dataclass(frozen=True)
@@ -22,7 +22,7 @@ class Verification:
     tolerance, of a rapid within nothing."""
 
     job: Job
-    moves: Moves
+    moves: ClMoves
     clearance: Floats
     verdict: Names
 
@@ -76,7 +76,7 @@ class Verification:
         )
 
 
-def verify(job: Job, moves: Moves, stages: Stages) -> Verification:
+def verify(job: Job, moves: ClMoves, stages: Stages) -> Verification:
     """Sample the clearance of every pose and certify every move: within the chord tolerance, rapids to be clear.
     Method, footprint and machine of the job are not used: a rapid turns on the great circle here."""
     scene = prepare(job, None, stages)

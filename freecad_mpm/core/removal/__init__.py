@@ -16,7 +16,7 @@ from .plane_curve import Curve
 from .probing import probed
 from .report import CutReport
 from .section import Section
-from .sweep import Box, Moves, tool_sweep
+from .sweep import Box, PathMoves, tool_sweep
 
 __all__ = [
     "Bands",
@@ -25,7 +25,7 @@ __all__ = [
     "Cut",
     "CutReport",
     "Extreme",
-    "Moves",
+    "PathMoves",
     "NOT_CUT",
     "SECTION_SPACING_MM",
     "Section",

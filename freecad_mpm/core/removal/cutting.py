@@ -15,7 +15,7 @@ from ..part import Scene
 from .overcut import Overcut, depths, overcut
 from .plane_curve import Curve, curve
 from .section import Section
-from .sweep import Box, Moves, tool_sweep
+from .sweep import Box, PathMoves, tool_sweep
 
 # Points of a section lie at most so far apart unless it is asked otherwise: a cusp shows.
 SECTION_SPACING_MM = 0.05
@@ -76,7 +76,7 @@ class Cut:
     """What `cut` found."""
 
     scene: Scene
-    path: Moves
+    path: PathMoves
     resolution_mm: float
     stock: Box  # set-up frame
     deviation: Deviation
@@ -154,7 +154,7 @@ class Cut:
 
 def cut(
     scene: Scene,
-    path: Moves,
+    path: PathMoves,
     resolution_mm: float = 0.5,
     *,
     box: tuple[Sequence[float], Sequence[float]] | None = None,

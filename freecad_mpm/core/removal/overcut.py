@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ... import _core
 from ..base import Floats, Integers, Stages
 from ..part import Scene, surface_model
-from .sweep import Box, Moves, reach, way
+from .sweep import Box, PathMoves, reach, way
 
 STAGE = "check faces"
 
@@ -29,7 +29,7 @@ class Overcut:
     triangles: NDArray[np.uint32]  # (T, 3) of points
 
 
-def overcut(scene: Scene, path: Moves, spacing_mm: float, box: Box | None, stages: Stages) -> Overcut:
+def overcut(scene: Scene, path: PathMoves, spacing_mm: float, box: Box | None, stages: Stages) -> Overcut:
     """Look at points of the check faces at most about `spacing_mm` apart, in `box` (set-up frame) when it is given.
 
     The depth is that by which plans are judged, the tool's own, not along a normal: a face's outer side need not be
@@ -50,7 +50,7 @@ def overcut(scene: Scene, path: Moves, spacing_mm: float, box: Box | None, stage
     return _around_cuts(scene, samples, depth, move)
 
 
-def depths(scene: Scene, path: Moves, points: Floats, stages: Stages) -> tuple[Floats, Integers]:
+def depths(scene: Scene, path: PathMoves, points: Floats, stages: Stages) -> tuple[Floats, Integers]:
     """Depth (N,) inside the tool of any `points` (N, 3) (set-up frame), and the moves (N,) that go deepest."""
     depth, move = stages.run_native(STAGE, _core.overcut, scene.tool, *way(scene, path), points)
     return depth, move.astype(np.int64)

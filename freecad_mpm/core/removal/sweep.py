@@ -14,7 +14,7 @@ from ..part import Scene
 NOT_CUTTING = ("rapid",)
 
 
-class Moves(Protocol):
+class PathMoves(Protocol):
     """What is needed of a path: `kind` (M,) names, `tip` and `axis` (M, 3), part frame, mm."""
 
     @property
@@ -37,19 +37,19 @@ class Box(NamedTuple):
     hi: Floats
 
 
-def way(scene: Scene, path: Moves) -> tuple[Floats, Floats, Flags]:
+def way(scene: Scene, path: PathMoves) -> tuple[Floats, Floats, Flags]:
     """tip, axis (M, 3) in the set-up frame; (M,): the move that ends in the row takes material away."""
     frame = scene.frame
     removes = ~np.isin(path.kind, NOT_CUTTING)
     return frame.to_setup(path.tip), frame.direction_to_setup(path.axis), removes
 
 
-def tool_sweep(scene: Scene, path: Moves) -> _core.ToolSweep:
+def tool_sweep(scene: Scene, path: PathMoves) -> _core.ToolSweep:
     """The native sweep of a path by the scene's tool."""
     return _core.ToolSweep(scene.tool, *way(scene, path))
 
 
-def reach(scene: Scene, path: Moves) -> Box:
+def reach(scene: Scene, path: PathMoves) -> Box:
     """A box (set-up frame) that holds the whole tool at all poses that a removing move begins or ends in."""
     tip, axis, removes = way(scene, path)
     removes[:1] = False

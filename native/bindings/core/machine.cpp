@@ -79,10 +79,10 @@ py::tuple forward_all(const KinematicChain& chain,
                       const DoubleArray& linear_mm,
                       const DoubleArray& rotary_deg,
                       const PartSetup& setup) {
-  std::vector<CutterLocation> found;
+  std::vector<TipPose> found;
   for (const Joints& one : to_joints(linear_mm, rotary_deg, "linear_mm and rotary_deg"))
     found.push_back(forward(chain, setup, one));
-  return py::make_tuple(column(found, &CutterLocation::tip), column(found, &CutterLocation::axis));
+  return py::make_tuple(column(found, &TipPose::tip), column(found, &TipPose::axis));
 }
 
 py::tuple deviations(const KinematicChain& chain,

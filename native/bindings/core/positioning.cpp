@@ -3,7 +3,7 @@
 
 #include "columns.h"
 #include "mpm/base/context.h"
-#include "mpm/footprint/plan_locator.h"
+#include "mpm/footprint/footprint_locator.h"
 #include "mpm/positioning/contact_spacing.h"
 #include "mpm/positioning/place_all.h"
 #include "mpm/positioning/registry.h"
@@ -124,7 +124,7 @@ py::array_t<bool> restrict_to_faces(const SurfaceModel& model,
                                     const DoubleArray& points,
                                     double margin_mm) {
   return to_array(
-      over_faces(PlanLocator(model, tool.radius() / 2), to_vectors<Vec2>(points, "points"), margin_mm));
+      over_faces(FootprintLocator(model, tool.radius() / 2), to_vectors<Vec2>(points, "points"), margin_mm));
 }
 
 py::dict method_table() {

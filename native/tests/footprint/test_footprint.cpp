@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "mpm/footprint/plan_locator.h"
+#include "mpm/footprint/footprint_locator.h"
 #include "mpm/footprint/raster.h"
 #include "thesis.h"
 
@@ -32,9 +32,9 @@ TEST(Raster, RefusesStepsThatGiveNothingOrTooMuch) {
   EXPECT_THROW(raster({0, 0}, {1, 1}, {0, 1, 1, -2, false}), std::invalid_argument);
 }
 
-TEST(PlanLocator, KnowsWhatLiesOverTheFaces) {
+TEST(FootprintLocator, KnowsWhatLiesOverTheFaces) {
   const SurfaceModel model = testing::thesis_model(testing::Thesis::saddle);
-  const PlanLocator locator(model, 6.0);
+  const FootprintLocator locator(model, 6.0);
   const std::vector<Vec2> points{{75, 75}, {0, 0}, {150, 150}, {150, 33.3}, {150.01, 75}, {-3, 20}};
   EXPECT_EQ(over_faces(locator, points, 0), (std::vector<bool>{true, true, true, true, false, false}));
   EXPECT_EQ(over_faces(locator, points, 1), (std::vector<bool>{true, true, true, true, true, false}));

@@ -25,7 +25,7 @@ void expect_sound(const SurfaceModel& model, const Tool& tool, const std::vector
   int proven = 0;
   for (const ToolPose& pose : poses) {
     const double found = sampler(pose, tool.radius()).distance;
-    const Certificate c = certify_pose(tree, tool, pose, {});
+    const PoseCertificate c = certify_pose(tree, tool, pose, {});
     EXPECT_GE(found, c.lo) << pose.torus_center.transpose();
     EXPECT_LE(c.lo, c.hi);
     if (c.verdict == Verdict::free) {
@@ -78,7 +78,7 @@ TEST(CertifyPose, AToolStandingOnAPlaneIsFreeByNothing) {
   const SurfaceModel model = testing::inclined_plane(0);
   const Tool tool = testing::thesis_tool();
   const CellTree tree(model, 1.0);
-  const Certificate c = certify_pose(tree, tool, leaning(Vec3(50, 50, 0), 0, 0, tool), {});
+  const PoseCertificate c = certify_pose(tree, tool, leaning(Vec3(50, 50, 0), 0, 0, tool), {});
   EXPECT_EQ(c.verdict, Verdict::free);
   EXPECT_GE(c.lo, -kTolerance);
   EXPECT_NEAR(c.hi, 0.0, 0.1);
@@ -113,9 +113,9 @@ TEST(CertifyPose, WhatIsTrimmedAwayIsNoSurface) {
 TEST(CertifyPose, AnExhaustedBudgetIsUndecidedNotFree) {
   const SurfaceModel model = testing::thesis_model(testing::Thesis::concave);
   const Tool tool = testing::thesis_tool();
-  CertifyOptions options;
+  CertifyPoseOptions options;
   options.budget = 20;
-  const Certificate c =
+  const PoseCertificate c =
       certify_pose(CellTree(model, 1.0), tool, leaning(Vec3(75, 75, 62.6), 0, 0, tool), options);
   EXPECT_EQ(c.verdict, Verdict::undecided);
   EXPECT_EQ(c.lo, -kInfinity);
@@ -137,7 +137,7 @@ TEST(CertifyPose, ACellThatIsSearchedForARingContactIsProvenAgainstTheBottomToo)
   const SurfaceModel model = testing::one_face(BSplineSurface(1, 2, {0, 0, 1, 1}, {0, 0, 0, 1, 1, 1}, poles));
   const ToolPose pose{Vec3::Zero(), Vec3::UnitZ()};
   ASSERT_LT(signed_distance(tool, pose, touch), -0.02);
-  CertifyOptions options;
+  CertifyPoseOptions options;
   options.sharpness = 1e-9, options.sharp_budget = 4000;
   EXPECT_EQ(certify_pose(CellTree(model, 2.0), tool, pose, options).verdict, Verdict::gouge);
 }

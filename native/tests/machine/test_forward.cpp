@@ -66,7 +66,7 @@ TEST(Forward, EachArrangementFollowsItsOwnFormula) {
     for (int i = 0; i < 100; ++i) {
       const Vec3 linear(place(random), place(random), place(random));
       const Vec2 rotary(angle(random), angle(random));
-      const CutterLocation at = forward(one.chain, {kPartOrigin, kLength}, {linear, rotary});
+      const TipPose at = forward(one.chain, {kPartOrigin, kLength}, {linear, rotary});
       EXPECT_LE((at.tip - one.tip(linear, rotary[0], rotary[1])).norm(), 1e-10) << one.name;
     }
 }
@@ -79,7 +79,7 @@ TEST(Forward, LinearReadingsInvertIt) {
       const Vec3 linear(place(random), place(random), place(random));
       const Vec2 rotary(angle(random), angle(random));
       const PartSetup setup{kPartOrigin, kLength};
-      const CutterLocation at = forward(one.chain, setup, {linear, rotary});
+      const TipPose at = forward(one.chain, setup, {linear, rotary});
       EXPECT_LE((linear_readings(one.chain, setup, at.tip, rotary) - linear).norm(), 1e-10) << one.name;
     }
 }

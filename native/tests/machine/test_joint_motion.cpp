@@ -46,11 +46,11 @@ double sampled_axis(const KinematicChain& chain, const Vec2& from, const Vec2& t
 }
 
 MotionDeviation sampled(const KinematicChain& chain, const Joints& from, const Joints& to) {
-  const CutterLocation a = forward(chain, kSetup, from), b = forward(chain, kSetup, to);
+  const TipPose a = forward(chain, kSetup, from), b = forward(chain, kSetup, to);
   MotionDeviation worst{0, sampled_axis(chain, from.rotary, to.rotary, {a.axis, b.axis})};
   for (int k = 0; k <= 200; ++k) {
     const double s = k / 200.0;
-    const CutterLocation at = forward(chain, kSetup, between(from, to, s));
+    const TipPose at = forward(chain, kSetup, between(from, to, s));
     worst.tip = std::max(worst.tip, (at.tip - a.tip - s * (b.tip - a.tip)).norm());
   }
   return worst;

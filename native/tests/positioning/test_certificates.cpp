@@ -67,9 +67,9 @@ void judge(const CellTree& cells, const Tool& tool, const Placement& p, Tally& t
     ++tally.claimed;
     tally.bridged += p.status == PositionStatus::bridged;
     tally.twice += p.status == PositionStatus::two_contacts;
-    CertifyOptions options;
+    CertifyPoseOptions options;
     options.tolerance = options.sharpness = kTolerance;
-    const Certificate again = certify_pose(cells, tool, p.pose, options);
+    const PoseCertificate again = certify_pose(cells, tool, p.pose, options);
     good = good && p.clearance_lo >= -kTolerance && again.verdict == Verdict::free &&
            again.hi >= p.clearance_lo - kJudgeAgain;
   }

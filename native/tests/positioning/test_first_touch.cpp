@@ -98,7 +98,7 @@ TEST(FirstTouch, FindsTheFreeTiltWhereTheBeginningIsBlocked) {
   Counters counters;
   const double most = kPi / 2;
   const Stop found = first_touch(approach, {most, 0, most, {}, &kept}, counters);
-  CertifyOptions options;
+  CertifyPoseOptions options;
   double highest = -1;  // by trying all tilts
   for (int k = 0; k <= 900; ++k)
     if (certify_pose(cells, tool, approach.pose(most * k / 900), options).verdict == Verdict::free)

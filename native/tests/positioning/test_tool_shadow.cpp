@@ -24,7 +24,7 @@ SurfaceModel terraces(double step) {
 
 std::vector<std::uint32_t> faces_under(const SurfaceModel& model, const Vec2& at) {
   const Tool tool = testing::thesis_tool();
-  const PlanLocator locator(model, tool.radius() / 2);
+  const FootprintLocator locator(model, tool.radius() / 2);
   std::vector<std::uint32_t> found;
   for (const Seed& seed : seeds_under_tool(locator, tool, at)) {
     found.push_back(seed.face);
@@ -47,7 +47,7 @@ TEST(ToolShadow, ASheetFarBelowIsAnother) {
 TEST(ToolShadow, TheSeedIsTheNearestSample) {
   const SurfaceModel model = terraces(5);
   const Tool tool = testing::thesis_tool();
-  const PlanLocator locator(model, tool.radius() / 2);
+  const FootprintLocator locator(model, tool.radius() / 2);
   const Vec2 at(30.3, 41.7);
   const std::vector<Seed> seeds = seeds_under_tool(locator, tool, at);
   ASSERT_EQ(seeds.size(), 1u);

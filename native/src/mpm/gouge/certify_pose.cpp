@@ -63,7 +63,7 @@ class Search {
   Search(const CellTree& tree,
          const Tool& tool,
          const ToolPose& pose,
-         const CertifyOptions& options,
+         const CertifyPoseOptions& options,
          Workspace& workspace)
       : tree_(tree),
         tool_(tool),
@@ -74,7 +74,7 @@ class Search {
         arena_(workspace.arena),
         contacts_(workspace.contacts) {}
 
-  Certificate run() {
+  PoseCertificate run() {
     result_.lo = options_.enough;
     stack_.clear(), contacts_.clear();
     for (std::uint32_t i = 0; i < tree_.roots().size(); i += kLanes)
@@ -301,7 +301,7 @@ class Search {
         put_lane(quarters, lane, taylor_cell(*cell.node.patch, quarter_box(cell.box, lane), group.third));
   }
 
-  Certificate give_up() {
+  PoseCertificate give_up() {
     result_.verdict = result_.hi < -options_.tolerance ? Verdict::gouge : Verdict::undecided;
     result_.lo = -kInfinity;
     return result_;
@@ -311,8 +311,8 @@ class Search {
   const Tool& tool_;
   const ToolPose& pose_;
   ClearanceBound bound_;
-  const CertifyOptions& options_;
-  Certificate result_;
+  const CertifyPoseOptions& options_;
+  PoseCertificate result_;
   std::vector<Group>& stack_;
   std::vector<CellBatch>& arena_;
   std::uint32_t arena_used_ = 0;
@@ -323,10 +323,10 @@ class Search {
 
 }  // namespace
 
-Certificate certify_pose(const CellTree& tree,
-                         const Tool& tool,
-                         const ToolPose& pose,
-                         const CertifyOptions& options) {
+PoseCertificate certify_pose(const CellTree& tree,
+                             const Tool& tool,
+                             const ToolPose& pose,
+                             const CertifyPoseOptions& options) {
   static thread_local Workspace workspace;
   return Search(tree, tool, pose, options, workspace).run();
 }

@@ -17,7 +17,7 @@ struct Witness {
   double distance = kInfinity;  // signed, mm
 };
 
-struct Certificate {
+struct PoseCertificate {
   Verdict verdict = Verdict::undecided;
   double lo = -kInfinity;   // mm: the clearance is proven to be at least this (0 where nothing came near)
   double hi = kInfinity;    // mm: the clearance is at most this (the witness has it)
@@ -25,7 +25,7 @@ struct Certificate {
   std::uint64_t cells = 0;  // sub-patches bounded
 };
 
-struct CertifyOptions {
+struct CertifyPoseOptions {
   double tolerance = 1e-3;  // mm: what may be cut in and still be called free
   double sharpness = 1e-3;  // mm: while the sharp budget lasts, points deeper than this are searched for
   double enough = 0.0;      // mm: lower bounds beyond this are not sharpened
@@ -47,9 +47,9 @@ struct CertifyOptions {
 // within the tolerance. Nothing is checked, and no cancel is looked at: a budget ends it.
 //
 // Threads: any number may share the tree.
-Certificate certify_pose(const CellTree& tree,
-                         const Tool& tool,
-                         const ToolPose& pose,
-                         const CertifyOptions& options);
+PoseCertificate certify_pose(const CellTree& tree,
+                             const Tool& tool,
+                             const ToolPose& pose,
+                             const CertifyPoseOptions& options);
 
 }  // namespace mpm

@@ -24,28 +24,28 @@ struct Judge {
   const Tool& tool;
   double tolerance;  // mm
 
-  Certificate operator()(const ToolPose& pose) const;
-  void find_deepest(const ToolPose& pose, Certificate& found) const;
+  PoseCertificate operator()(const ToolPose& pose) const;
+  void find_deepest(const ToolPose& pose, PoseCertificate& found) const;
 };
 
-Certificate Judge::operator()(const ToolPose& pose) const {
-  CertifyOptions options;
+PoseCertificate Judge::operator()(const ToolPose& pose) const {
+  CertifyPoseOptions options;
   options.tolerance = options.sharpness = tolerance;
   options.stop_at_violation = true;
-  Certificate found = certify_pose(tree, tool, pose, options);
+  PoseCertificate found = certify_pose(tree, tool, pose, options);
   if (found.verdict != Verdict::free) find_deepest(pose, found);
   return found;
 }
 
 // Dense sampling gives nearly the depth; asked with that as the tolerance, few cells stay open, until nothing
 // deeper is found.
-void Judge::find_deepest(const ToolPose& pose, Certificate& found) const {
+void Judge::find_deepest(const ToolPose& pose, PoseCertificate& found) const {
   found.hi = std::min(found.hi, sampler(pose, tool.radius()).distance);
-  CertifyOptions options;
+  CertifyPoseOptions options;
   options.budget = kDeepBudget;
   for (int round = 0; round < kMostRounds; ++round) {
     options.tolerance = options.sharpness = std::max(tolerance, -kAsDeep * found.hi);
-    const Certificate next = certify_pose(tree, tool, pose, options);
+    const PoseCertificate next = certify_pose(tree, tool, pose, options);
     found.cells += next.cells;
     found.lo = next.lo;
     if (next.hi < found.hi) found.hi = next.hi, found.witness = next.witness;
@@ -58,16 +58,16 @@ void Judge::find_deepest(const ToolPose& pose, Certificate& found) const {
 
 }  // namespace
 
-std::vector<Certificate> certify_poses(const SurfaceModel& model,
-                                       const Tool& tool,
-                                       const std::vector<ToolPose>& poses,
-                                       double tolerance,
-                                       Context& context) {
+std::vector<PoseCertificate> certify_poses(const SurfaceModel& model,
+                                           const Tool& tool,
+                                           const std::vector<ToolPose>& poses,
+                                           double tolerance,
+                                           Context& context) {
   require(std::isfinite(tolerance) && tolerance > 0, "tolerance_mm must be a positive number of mm");
   const CellTree tree = judge_cells(model, tool);
   const ClearanceSampler sampler(model, tool);
   const Judge judge{tree, sampler, tool, tolerance};
-  std::vector<Certificate> found(poses.size());
+  std::vector<PoseCertificate> found(poses.size());
   context.start(poses.size());
   for_each_range(poses.size(), kGrain, context, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end && !context.cancelled(); ++i) found[i] = judge(poses[i]);

@@ -18,10 +18,10 @@ namespace mpm {
 // Requires: finite poses with unit axes, in the model's frame; a tool that passes check_tool().
 // Guarantees: in the order of the poses, whatever the number of threads.
 // Fails: std::invalid_argument for a tolerance that is not positive. What a cancel left out is undecided.
-std::vector<Certificate> certify_poses(const SurfaceModel& model,
-                                       const Tool& tool,
-                                       const std::vector<ToolPose>& poses,
-                                       double tolerance,
-                                       Context& context);
+std::vector<PoseCertificate> certify_poses(const SurfaceModel& model,
+                                           const Tool& tool,
+                                           const std::vector<ToolPose>& poses,
+                                           double tolerance,
+                                           Context& context);
 
 }  // namespace mpm

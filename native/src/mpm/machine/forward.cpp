@@ -33,7 +33,7 @@ Vec3 tool_axis(const KinematicChain& chain, const Vec2& rotary) {
   return axis;
 }
 
-CutterLocation forward(const KinematicChain& chain, const PartSetup& setup, const Joints& joints) {
+TipPose forward(const KinematicChain& chain, const PartSetup& setup, const Joints& joints) {
   const Vec3 tip = joints.linear + tip_from_gauge(chain, setup, joints.rotary);
   return {turns(chain, joints.rotary, AxisRole::table_rotary) * tip - setup.part_origin,
           tool_axis(chain, joints.rotary)};

@@ -5,7 +5,7 @@
 
 #include "mpm/base/error.h"
 #include "mpm/contact/insert.h"
-#include "mpm/contact/plan_ray.h"
+#include "mpm/contact/vertical_ray.h"
 #include "mpm/positioning/tool_shadow.h"
 
 namespace mpm {
@@ -56,7 +56,7 @@ class Drd final : public Method {
   Tool tool_;
   double tilt_max_;
   Options options_;
-  PlanLocator locator_;
+  FootprintLocator locator_;
 };
 
 // Fig. 3.6 on one face: rays from a grid on the ring, the grid closed in round the best one.

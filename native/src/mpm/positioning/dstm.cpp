@@ -64,7 +64,7 @@ class Dstm final : public Method {
   Tool tool_;
   double tilt_max_, spin_;
   Options options_;
-  PlanLocator locator_;
+  FootprintLocator locator_;
 };
 
 Insert turned(const Insert& insert, const Vec3& normal, double spin) {

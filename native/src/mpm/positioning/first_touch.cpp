@@ -146,7 +146,7 @@ double FirstTouch::body_arrival(const A& approach, double x, double least, const
 // The pose at x; what it costs is taken off the budget.
 template <Approach A>
 Stop FirstTouch::judged(
-    const A& approach, double x, const Touch& last, CertifyOptions& options, Counters& counters) const {
+    const A& approach, double x, const Touch& last, CertifyPoseOptions& options, Counters& counters) const {
   const Stop stop{x, last, JudgedPose(tree_, tool_, approach.pose(x), options)};
   const std::uint64_t cells = stop.judged.certificate().cells;
   counters.cells += cells;
@@ -170,7 +170,7 @@ Touch FirstTouch::earlier(
 template <Approach A>
 Stop FirstTouch::come_down(const A& approach,
                            const Descent& descent,
-                           CertifyOptions& options,
+                           CertifyPoseOptions& options,
                            Counters& counters) const {
   const double no_gain = steps_of(approach, tool_).no_gain;
   double x = descent.from;
@@ -209,7 +209,7 @@ template <Approach A>
 Stop FirstTouch::highest_free(const A& approach,
                               const Descent& descent,
                               const Stop& blocked,
-                              CertifyOptions& options,
+                              CertifyPoseOptions& options,
                               Counters& counters) const {
   options.stop_at_violation = false;
   options.sharpness = options.tolerance / 2;
@@ -237,7 +237,7 @@ Stop FirstTouch::highest_free(const A& approach,
 
 template <Approach A>
 Stop FirstTouch::operator()(const A& approach, const Descent& descent, Counters& counters) const {
-  CertifyOptions options = judge_;
+  CertifyPoseOptions options = judge_;
   const Stop stop = come_down(approach, descent, options, counters);
   const bool is_blocked = stop.x <= descent.least && descent.most > descent.least && !stop.judged.is_free();
   return is_blocked ? highest_free(approach, descent, stop, options, counters) : stop;

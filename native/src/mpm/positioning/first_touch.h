@@ -13,16 +13,16 @@ namespace mpm {
 // what certify_pose() does.
 class JudgedPose {
  public:
-  JudgedPose(const CellTree& tree, const Tool& tool, const ToolPose& at, const CertifyOptions& options)
+  JudgedPose(const CellTree& tree, const Tool& tool, const ToolPose& at, const CertifyPoseOptions& options)
       : pose_(at), certificate_(certify_pose(tree, tool, at, options)) {}
 
   const ToolPose& pose() const { return pose_; }
-  const Certificate& certificate() const { return certificate_; }
+  const PoseCertificate& certificate() const { return certificate_; }
   bool is_free() const { return certificate_.verdict == Verdict::free; }
 
  private:
   ToolPose pose_;
-  Certificate certificate_;
+  PoseCertificate certificate_;
 };
 
 // Where a search for the first arrival starts: a surface point.
@@ -106,25 +106,25 @@ class FirstTouch {
   double body_arrival(const A& approach, double x, double least, const Vec3& s) const;
   template <Approach A>
   Stop judged(
-      const A& approach, double x, const Touch& last, CertifyOptions& options, Counters& counters) const;
+      const A& approach, double x, const Touch& last, CertifyPoseOptions& options, Counters& counters) const;
   template <Approach A>
   Touch earlier(const A& approach, double x, const Witness& w, const Touch& ring, bool by_point) const;
   template <Approach A>
   Stop come_down(const A& approach,
                  const Descent& descent,
-                 CertifyOptions& options,
+                 CertifyPoseOptions& options,
                  Counters& counters) const;
   template <Approach A>
   Stop highest_free(const A& approach,
                     const Descent& descent,
                     const Stop& blocked,
-                    CertifyOptions& options,
+                    CertifyPoseOptions& options,
                     Counters& counters) const;
 
   const CellTree& tree_;
   const Tool& tool_;
   double noise_;  // mm: depths down to this are rounding
-  CertifyOptions judge_;
+  CertifyPoseOptions judge_;
 };
 
 extern template Touch FirstTouch::best_start(const Drop&, const std::vector<Start>&, double, Counters&) const;

@@ -54,7 +54,7 @@ class Pam final : public Method {
   Tool tool_;
   double tilt_max_, step_;
   ToolGrid grid_;
-  PlanLocator locator_;
+  FootprintLocator locator_;
 };
 
 // The tilt at which the ring's curvature at the contact, cos(theta)/(Ro + Ri cos(theta)) with cos(theta) = n

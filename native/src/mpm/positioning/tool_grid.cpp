@@ -1,6 +1,6 @@
 #include "mpm/positioning/tool_grid.h"
 
-#include "mpm/contact/plan_ray.h"
+#include "mpm/contact/vertical_ray.h"
 
 namespace mpm {
 namespace {

@@ -9,7 +9,7 @@ constexpr double kSheetGap = 2.0;  // tool radii: seeds this much below the high
 
 }  // namespace
 
-std::vector<Seed> seeds_under_tool(const PlanLocator& locator, const Tool& tool, const Vec2& at) {
+std::vector<Seed> seeds_under_tool(const FootprintLocator& locator, const Tool& tool, const Vec2& at) {
   const double reach = tool.radius() + locator.spacing();
   double highest = -kInfinity;
   locator.visit_near(at, reach, [&](const Seed& s) { highest = std::max(highest, s.s.z()); });

@@ -3,13 +3,13 @@
 
 #include <vector>
 
-#include "mpm/footprint/plan_locator.h"
+#include "mpm/footprint/footprint_locator.h"
 #include "mpm/tool/tool.h"
 
 namespace mpm {
 
 // For every face under the tool the sample nearest to `at` in plan, by face; samples far below the highest
 // belong to another sheet and are left out.
-std::vector<Seed> seeds_under_tool(const PlanLocator& locator, const Tool& tool, const Vec2& at);
+std::vector<Seed> seeds_under_tool(const FootprintLocator& locator, const Tool& tool, const Vec2& at);
 
 }  // namespace mpm

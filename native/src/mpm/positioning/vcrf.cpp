@@ -96,7 +96,7 @@ class Vcrf final : public Method {
   double tilt_max_;
   int divisions_, rounds_;
   double window_;  // half-width of the grid's window, mm
-  PlanLocator locator_;
+  FootprintLocator locator_;
 };
 
 // The parameter window of section 4.4.4 without its assumption of a uniform net: along both iso-lines through

@@ -1,4 +1,4 @@
-#include "mpm/footprint/plan_locator.h"
+#include "mpm/footprint/footprint_locator.h"
 
 #include "mpm/base/error.h"
 
@@ -42,7 +42,7 @@ double widened(const SurfaceModel& model, double spacing) {
 
 }  // namespace
 
-PlanLocator::PlanLocator(const SurfaceModel& model, double spacing)
+FootprintLocator::FootprintLocator(const SurfaceModel& model, double spacing)
     : model_(model), spacing_(widened(model, spacing)), lo_(model.bounds().lo.head<2>()) {
   require(spacing > 0, "spacing must be positive");
   const Vec2 size = model.bounds().hi.head<2>() - lo_;
@@ -72,14 +72,14 @@ PlanLocator::PlanLocator(const SurfaceModel& model, double spacing)
   for (const Seed& s : all) seeds_[next[cell(s.s.x(), s.s.y())]++] = s;
 }
 
-std::size_t PlanLocator::cell(double x, double y) const {
+std::size_t FootprintLocator::cell(double x, double y) const {
   const double c = std::clamp(std::floor((x - lo_.x()) / spacing_), 0.0, double(columns_ - 1));
   const double r = std::clamp(std::floor((y - lo_.y()) / spacing_), 0.0, double(rows_ - 1));
   return std::size_t(r) * columns_ + std::size_t(c);
 }
 
 // Plan distance after Newton's iteration on S_xy(u, v) = at from the seed, kept inside the face's domain.
-double PlanLocator::refine(const Seed& seed, const Vec2& at) const {
+double FootprintLocator::refine(const Seed& seed, const Vec2& at) const {
   const Face& face = model_.faces()[seed.face];
   const ParamBox& d = face.surface.domain();
   double u = seed.u, v = seed.v, best = (seed.s.head<2>() - at).norm();
@@ -97,7 +97,7 @@ double PlanLocator::refine(const Seed& seed, const Vec2& at) const {
   return best;
 }
 
-double PlanLocator::distance(const Vec2& at, double radius) const {
+double FootprintLocator::distance(const Vec2& at, double radius) const {
   std::vector<std::pair<double, const Seed*>> near;
   visit_near(at, radius + spacing_, [&](const Seed& seed) {
     if (!model_.faces()[seed.face].check) near.emplace_back((seed.s.head<2>() - at).squaredNorm(), &seed);
@@ -113,7 +113,9 @@ double PlanLocator::distance(const Vec2& at, double radius) const {
   return best <= radius ? best : kInfinity;
 }
 
-std::vector<bool> over_faces(const PlanLocator& locator, const std::vector<Vec2>& points, double margin) {
+std::vector<bool> over_faces(const FootprintLocator& locator,
+                             const std::vector<Vec2>& points,
+                             double margin) {
   const double radius = std::max(margin, 0.0) + kOverFace;
   std::vector<bool> result(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) result[i] = locator.distance(points[i], radius) <= radius;

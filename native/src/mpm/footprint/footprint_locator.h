@@ -23,9 +23,9 @@ struct Seed {
 // Requires: the model outlives it.
 // Fails: std::invalid_argument for a spacing that is not positive.
 // Threads: any number may ask one.
-class PlanLocator {
+class FootprintLocator {
  public:
-  PlanLocator(const SurfaceModel& model, double spacing);
+  FootprintLocator(const SurfaceModel& model, double spacing);
 
   double spacing() const { return spacing_; }  // as widened
 
@@ -50,10 +50,10 @@ class PlanLocator {
 };
 
 // Which points lie over the faces to machine, or within `margin` mm of them in plan.
-std::vector<bool> over_faces(const PlanLocator& locator, const std::vector<Vec2>& points, double margin);
+std::vector<bool> over_faces(const FootprintLocator& locator, const std::vector<Vec2>& points, double margin);
 
 template <class Visit>
-void PlanLocator::visit_near(const Vec2& at, double radius, const Visit& visit) const {
+void FootprintLocator::visit_near(const Vec2& at, double radius, const Visit& visit) const {
   const auto column = [&](double x) {
     return std::ptrdiff_t(std::clamp(std::floor((x - lo_.x()) / spacing_), -1.0, double(columns_)));
   };
