@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import hashlib
 import tempfile
-from dataclasses import dataclass
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
@@ -15,9 +14,10 @@ import FreeCAD
 import Mesh
 import numpy as np
 
-from ..core.base import Floats, Integers, blame, write_atomically
+from ..core.base import blame, write_atomically
 from . import compat, hooks, program
 from .computation import require_native
+from .deviation import deviation_of, store
 from .job_spec import job_of
 from .messages import property_names
 from .model import model_faces
@@ -85,34 +85,6 @@ PROPERTIES = (
     Property("Data", "FileIncluded", "Stored", "Points, deviations, moves, triangles", mode=HIDDEN),
     Property("PathMark", "String", "Stored", "Tells one path from another", "", mode=HIDDEN),
 )
-
-
-@dataclass(frozen=True)
-class Deviation:
-    """The deviation that a result holds; global frame, mm. Single precision, as it is for looking at."""
-
-    points: Floats  # (N, 3), on the faces to machine; then those of the other faces that are cut, and round them
-    deviation_mm: Floats  # (N,), along the normal: > 0 remains, < 0 is cut in; of other faces how deep in the tool
-    move: Integers  # (N,), move of the path that cut there last, -1: none; of other faces the one that went deepest
-    triangles: Integers  # (T, 3) of points
-    measured: int  # points of the faces to machine
-
-    def nearest(self, point: Any) -> int:
-        """The row nearest to a point (3,)."""
-        return int(np.argmin(((self.points - np.asarray(tuple(point))) ** 2).sum(axis=1)))
-
-    def first_on_line(self, start: Any, end: Any, reach_mm: float) -> int | None:
-        """The row that the way from `start` to `end` (3,) meets first, passing it within `reach_mm`; None: it misses."""
-        start, end = np.asarray(tuple(start)), np.asarray(tuple(end))
-        direction = (end - start) / np.linalg.norm(end - start)
-        offset = self.points - start
-        along = offset @ direction
-        beside = np.linalg.norm(offset - np.outer(along, direction), axis=1)
-        rows = np.flatnonzero((beside <= reach_mm) & (along >= 0))
-        if not len(rows):
-            return None
-        first = rows[along[rows] <= along[rows].min() + 2 * reach_mm]  # one spot of the face
-        return int(first[np.argmin(beside[first])])
 
 
 class Verification(compat.Stateless):
@@ -192,14 +164,6 @@ def allowed_depth_mm(op: Any) -> float:
     return budget.cut_depth_mm(job.tolerance, positioning.guarantee_of(job))
 
 
-def deviation_of(result: Any) -> Deviation:
-    """What is coloured in the 3D view."""
-    with np.load(result.Data) as data:
-        points = data["points"]
-        measured = int(data["measured"]) if "measured" in data else len(points)  # not in the first documents
-        return Deviation(points, data["deviation_mm"], data["move"], data["triangles"], measured)
-
-
 def position_at(op: Any, move: int) -> int:
     """Number in machining order, from 0, of the position in which a move of the path ends; NO_POSITION: in none."""
     from .playback import visited
@@ -270,25 +234,8 @@ def _fill(result: Any, op: Any, cut: Cut) -> None:
         setattr(result, f"{name}Move", extreme.move)
     result.Bands = deviation_bands.table(bands, bands.shares(found.deviation_mm))
     result.PathMark, result.Outdated = path_mark(op), False
-    _store(result, found, cut.overcut)
+    store(result, cut)
     result.Stock.Mesh = _mesh(cut)
-
-
-def _store(result: Any, found: Any, aside: Any) -> None:
-    """FreeCAD copies the file into the document."""
-    with tempfile.TemporaryDirectory() as folder:
-        file = FilePath(folder) / "deviation.npz"
-        np.savez_compressed(
-            file,
-            points=np.concatenate((found.points, aside.points)).astype(np.float32),
-            deviation_mm=np.concatenate((found.deviation_mm, -aside.depth_mm)).astype(np.float32),
-            move=np.concatenate((found.move, aside.move)).astype(np.int32),
-            triangles=np.concatenate((found.triangles, aside.triangles + len(found.points))).astype(
-                np.uint32
-            ),
-            measured=len(found.points),
-        )
-        result.Data = str(file)
 
 
 def _mesh(cut: Cut) -> Any:

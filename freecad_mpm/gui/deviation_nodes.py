@@ -9,7 +9,7 @@ from pivy import coin
 
 from ..core.removal import Bands
 from ..core.removal import bands as deviation_bands
-from ..document.verification import Deviation
+from ..document.deviation import Deviation
 from .toolpath_nodes import unlit, unpickable
 
 # The legend, in a picture that reaches from -1 to 1 both ways: lower left corner, size of a patch, text beside it.

@@ -11,6 +11,7 @@ from PySide import QtCore, QtGui
 from ..core.base import Cancelled, InputError
 from ..core.removal import bands as deviation_bands
 from ..document import verification
+from ..document.deviation import deviation_of
 from ..document.playback import Played, played
 from . import panels, playback_panel
 from .messages import report
@@ -32,7 +33,7 @@ class VerificationPanel(panels.ClosingPanel):
         self.result = result
         self.form = VerificationForm(result)
         self.move = verification.NO_MOVE  # that cut the spot last
-        self._found = verification.deviation_of(result)
+        self._found = deviation_of(result)
         self._view = panels.view_of(result.Document)
         # Not the one with Coin's own events: of their position FreeCAD 1.1's pivy gives no more than a pointer.
         self._callback = self._view.addEventCallback(CLICKS, self._clicked)

@@ -6,7 +6,7 @@ from typing import Any
 
 from ..core.removal import bands
 from ..document import compat
-from ..document.verification import deviation_of
+from ..document.deviation import deviation_of
 from . import icons
 from .deviation_nodes import DeviationNodes
 

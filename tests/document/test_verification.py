@@ -13,6 +13,7 @@ from FreeCAD import Vector
 
 from freecad_mpm.core.base import Cancelled, InputError
 from freecad_mpm.document import cl_path, hooks, verification
+from freecad_mpm.document.deviation import deviation_of
 
 RESOLUTION_MM = 1.0
 
@@ -71,7 +72,7 @@ def test_a_path_that_is_too_low_is_found_out_with_the_move_that_gouged(op: Any) 
     assert 0 <= result.WorstCheckGougeMove < len(moves.kind)
     assert moves.kind[result.WorstCheckGougeMove] in ("cut", "plunge")
     assert wall_distance(op, result.WorstCheckGougePoint) < 1e-6
-    found = verification.deviation_of(result)
+    found = deviation_of(result)
     assert found.deviation_mm[found.measured :].min() == pytest.approx(result.WorstCheckGouge.Value, abs=1e-6)
     assert not result.Good
     assert any(line.startswith("below -0.1 mm") for line in result.Bands)
@@ -89,7 +90,7 @@ def wall_distance(op: Any, point: Any) -> float:
 def test_faces_that_are_not_picked_and_not_cut_are_told_so(op: Any, result: Any) -> None:
     assert -op.ChordTolerance.Value <= result.WorstCheckGouge.Value <= 0
     result = verification.verify(op, 4.0)
-    found = verification.deviation_of(result)
+    found = deviation_of(result)
     assert (found.deviation_mm[found.measured :] >= -op.ChordTolerance.Value).all()
 
 
@@ -112,7 +113,7 @@ def test_the_memory_is_said_before_and_refused_with_what_would_fit(
 
 
 def test_the_stored_deviation_holds_the_extremes(result: Any) -> None:
-    found = verification.deviation_of(result)
+    found = deviation_of(result)
     assert found.deviation_mm[: found.measured].min() == pytest.approx(result.WorstGouge.Value, abs=1e-6)
     assert found.deviation_mm.max() == pytest.approx(result.WorstRemainder.Value, rel=1e-6)
     row = found.nearest(result.WorstRemainderPoint)
@@ -144,7 +145,7 @@ def test_a_new_path_makes_it_outdated_and_reopening_does_not(op: Any, result: An
     result = doc.getObject("Verification")
     assert isinstance(result.Proxy, verification.Verification)
     assert result.WorstGouge.Value == pytest.approx(worst)
-    assert len(verification.deviation_of(result).points) > 1000
+    assert len(deviation_of(result).points) > 1000
     result.touch()
     doc.recompute()
     assert not result.Outdated
