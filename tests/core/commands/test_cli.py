@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import csv
 import errno
-import json
 import os
 import pty
 import resource
@@ -15,130 +13,8 @@ from pathlib import Path
 import pytest
 from command_line import LIMIT_S, run, start
 
-RESULTS = {"cl.csv", "cl.apt", "program.I", "report.json", "report.txt", "machined.stl", "path.png"}
 # Processor time from Ctrl-C to the end of the process.
 STOPPED_S = 2.0
-
-
-def test_plan_writes_all_results_and_says_where(job_file: Path, tmp_path: Path) -> None:
-    out = tmp_path / "out"
-    status, text, error = run("plan", job_file, "--out", out)
-    assert (status, error) == (0, "")
-    assert {path.name for path in out.iterdir()} == RESULTS
-    assert all(str(out / name) in text for name in RESULTS)
-    assert "sampled: no proof" in text
-    report = json.loads((out / "report.json").read_text())
-    assert report["positions"]["count"] == 28 and report["verdict"]["good"] is True
-    assert (out / "report.txt").read_text() in text
-
-
-def test_a_plan_with_gouges_is_written_and_has_status_1(job_file: Path, tmp_path: Path) -> None:
-    job_file.write_text(job_file.read_text().replace("chord_mm = 2.0", "chord_mm = 1e-6"))
-    status, text, error = run("plan", job_file, "--out", tmp_path / "out")
-    assert (status, error) == (1, "")
-    assert "NOT GOOD" in text and (tmp_path / "out" / "cl.csv").exists()
-
-
-def test_threads_do_not_change_the_results(job_file: Path, tmp_path: Path) -> None:
-    for threads in (1, 2):
-        assert run("plan", job_file, "--out", tmp_path / str(threads), "--threads", threads)[0] == 0
-    for name in sorted(RESULTS - {"report.json", "report.txt"}):  # these hold times
-        assert (tmp_path / "1" / name).read_bytes() == (tmp_path / "2" / name).read_bytes(), name
-
-
-def test_verify_agrees_with_plan_and_finds_a_spoilt_pose(job_file: Path, tmp_path: Path) -> None:
-    assert run("plan", job_file, "--out", tmp_path)[0] == 0
-    status, text, error = run("verify", job_file, tmp_path / "cl.csv")
-    assert (status, error) == (0, "")
-    lines = (tmp_path / "cl.csv").read_text().splitlines()
-    number, line = next((i, line) for i, line in enumerate(lines) if ",cut," in line)
-    cells = line.split(",")
-    cells[6] = str(float(cells[6]) - 1.0)  # tip_z
-    (tmp_path / "spoilt.csv").write_text("\n".join([*lines[:number], ",".join(cells), *lines[number + 1 :]]))
-    status, text, error = run("verify", job_file, tmp_path / "spoilt.csv")
-    assert (status, error) == (1, "")
-    assert "NOT GOOD" in text and f"line {number + 1} " in text
-
-
-def test_info_lists_the_faces(thesis_part: Callable[[str], Path]) -> None:
-    status, text, error = run("info", thesis_part("saddle"))
-    assert (status, error) == (0, "")
-    assert "Face1" in text and "150.000" in text
-
-
-def test_bench_prints_and_writes_rows(job_file: Path, tmp_path: Path) -> None:
-    status, text, error = run("bench", "--surfaces", job_file, "--methods", "vcrf", "--out", tmp_path)
-    assert (status, error) == (0, "")
-    rows = json.loads((tmp_path / "bench.json").read_text())["rows"]
-    wanted = {"method", "surface", "threads", "positions", "positions_per_second", "evaluations_per_position"}
-    assert rows and all(wanted <= set(row) for row in rows)
-    assert {(row["method"], row["surface"], row["positions"]) for row in rows} == {("vcrf", "job", 28)}
-    assert rows[0]["threads"] == 1 and rows[0]["positions_per_second"] > 0
-    assert rows[0]["evaluations_per_position"] > 1000
-    assert "vcrf" in text
-    assert 0.5 < rows[0]["two_contacts"] <= 1
-    assert rows[0]["worst_gouge_mm"] >= rows[0]["deep_gouge_mm"]
-    assert (tmp_path / "bench.png").read_bytes().startswith(b"\x89PNG")
-
-
-def test_bench_writes_its_tables_into_pages_and_names_one_without_a_block(
-    job_file: Path, tmp_path: Path
-) -> None:
-    page = tmp_path / "page.md"
-    page.write_text("Before\n<!-- begin summary -->\nold\n<!-- end summary -->\nafter\n")
-    arguments = ("--surfaces", job_file, "--methods", "exact", "--threads", "1", "--out", tmp_path)
-    assert run("bench", *arguments, "--markdown", page)[0] == 0
-    text = page.read_text()
-    assert text.startswith("Before\n") and text.endswith("after\n") and "| `exact` |" in text
-    page.write_text("nothing")
-    status, _, error = run("bench", *arguments, "--markdown", page)
-    assert status == 2 and "page.md: has none of the blocks" in error and page.read_text() == "nothing"
-
-
-def test_spins_writes_the_spread_and_the_control(job_file: Path, tmp_path: Path) -> None:
-    wanted = 'name = "exact"\ncontact_spacing_mm = 6\nspacing_measure = "direct"'
-    job_file.write_text(job_file.read_text().replace('name = "vcrf"', wanted))
-    status, text, error = run(
-        "spins", job_file, "--out", tmp_path, "--at", "40,60", "110,90", "--step-deg", 30
-    )
-    assert (status, error) == (0, "")
-    assert "Contacts 6 mm apart from contact to contact: within 1% at 28 of 28 positions" in text
-    rows = list(csv.DictReader((tmp_path / "spins.csv").read_text().splitlines()))
-    assert len(rows) == 24 and {row["status"] for row in rows} == {"two_contacts"}
-    assert (tmp_path / "spins.png").exists() and (tmp_path / "spacing.png").exists()
-
-
-def test_spins_beside_the_part_are_told_and_nothing_is_written(job_file: Path, tmp_path: Path) -> None:
-    job_file.write_text(job_file.read_text().replace("vcrf", "exact"))
-    status, text, error = run(
-        "spins", job_file, "--out", tmp_path / "out", "--at", "75,75", "400,20", "--step-deg", 90
-    )
-    assert (status, text) == (2, "") and not (tmp_path / "out").exists()
-    assert error == "(400, 20): lies beside the part: no spin of the tool touches it there\n"
-
-
-def test_a_plan_that_leaves_cuts_out_is_not_good(job_file: Path, tmp_path: Path) -> None:
-    job_file.write_text(job_file.read_text().replace("allow_gaps = true", ""))
-    status, text, error = run("plan", job_file, "--out", tmp_path / "out")
-    assert (status, error) == (1, "")
-    assert text.startswith("Verdict: NOT GOOD: 10 moves between neighbours of a pass are not cut (")
-    worst = json.loads((tmp_path / "out" / "report.json").read_text())["cut"]["worst_gouge"]
-    assert f"Worst gouge: {worst['deviation_mm']:+.4f} mm at" in text
-    assert (
-        f"(cut, pass {worst['pass_index']}, position {worst['position']}); {worst['depth_mm']:.4f} mm inside the tool"
-        in text
-    )
-    # Between positions 25 mm apart the chord cuts in; the tool's own depth is what the chord tolerance is about.
-    assert 0.02 < worst["depth_mm"] <= -worst["deviation_mm"] + 1e-4 and worst["depth_mm"] < 2.0
-
-
-def test_bench_writes_the_rows_as_csv_too(job_file: Path, tmp_path: Path) -> None:
-    arguments = ("--surfaces", job_file, "--methods", "dtm", "--threads", "1", "--out", tmp_path)
-    assert run("bench", *arguments, "--csv", "bench.csv")[0] == 0
-    row = json.loads((tmp_path / "bench.json").read_text())["rows"][0]
-    head, line = list(csv.reader((tmp_path / "bench.csv").read_text().splitlines()))
-    assert head == list(row) and dict(zip(head, line))["method"] == "dtm"
-    assert row["seeds_per_position"] >= 1 and row["newton_steps_per_position"] > 1
 
 
 # What replaces what in a good job file, and what the one line must hold.
@@ -318,60 +194,3 @@ def test_a_reader_that_goes_away_is_no_error(thesis_part: Callable[[str], Path])
     assert process.stderr
     assert process.stderr.read() == ""
     assert process.wait(LIMIT_S) == 141
-
-
-def test_cut_measures_a_plan_and_its_files(job_file: Path, tmp_path: Path) -> None:
-    assert run("plan", job_file, "--out", tmp_path / "plan")[0] == 0
-    out = tmp_path / "cut"
-    for source in ("cl.csv", "program.I"):
-        status, text, error = run(
-            *("cut", job_file, tmp_path / "plan" / source, "--out", out, "--resolution-mm", 6),
-            *("--section", "y=27", "--probe-radius-mm", 2, "--mesh", "left.obj"),
-        )
-        assert (status, error) == (0, "")
-        assert "Worst gouge: " in text and "Section y27:" in text and "by probe" in text
-        names = {"cut.json", "cut.txt", "deviation.png", "section_y27.csv", "section_y27.png", "left.obj"}
-        assert {path.name for path in out.iterdir()} == names
-        facts = json.loads((out / "cut.json").read_text())
-        assert facts["worst_gouge"]["move"] >= 0 and facts["sections"]["y27"]["max_mm"] > 1
-        rows = list(csv.DictReader((out / "section_y27.csv").read_text().splitlines()))
-        assert {float(row["y"]) for row in rows} == {27.0}
-
-
-@pytest.mark.parametrize(
-    ("words", "said"),
-    [
-        (["--resolution-mm", "0"], "--resolution-mm: must be a positive number"),
-        (["--section", "w=3"], "--section: must be x=MM, y=MM, z=MM, line=X,Y:X,Y or point="),
-        (["--section", "x=75", "--section", "z=300"], "--section z300: the plane does not meet the faces"),
-        (["--mesh", "a.3mf"], "a.3mf: a mesh file must end in one of"),
-        (["--resolution-mm", "0.0001"], "mm would fit, or a small box"),
-    ],
-)
-def test_cut_says_what_is_wrong(words: list[str], said: str, job_file: Path, tmp_path: Path) -> None:
-    status, out, error = run("cut", job_file, "--out", tmp_path / "out", *words)
-    assert (status, out) == (2, "") and said in error and error.count("\n") == 1
-    assert not (tmp_path / "out").exists()
-
-
-def test_picture_draws_chosen_positions(job_file: Path, tmp_path: Path) -> None:
-    out = tmp_path / "pictures"
-    status, text, error = run("picture", job_file, "--position", 1, 12, "--out", out)
-    assert (status, error) == (0, "")
-    assert sorted(path.name for path in out.iterdir()) == ["position_000001.png", "position_000012.png"]
-    assert all((out / name).read_bytes().startswith(b"\x89PNG") and name in text for name in os.listdir(out))
-
-
-@pytest.mark.parametrize(
-    ("number", "message"),
-    [
-        (0, "argument --position: must be a whole number from 1, got '0'"),
-        (29, "position 29: must be from 1 to 28"),
-    ],
-)
-def test_picture_of_a_position_that_is_not_there(
-    job_file: Path, tmp_path: Path, number: int, message: str
-) -> None:
-    status, text, error = run("picture", job_file, "--position", number, "--out", tmp_path / "pictures")
-    assert (status, text) == (2, "") and message in error and error.count("\n") == 1
-    assert not (tmp_path / "pictures").exists()

@@ -243,55 +243,6 @@ def test_findings_name_block_and_text():
     assert finding.block == number and str(finding).startswith(f"round trip: N{number} G01 X")
 
 
-def test_reader_keeps_the_state_a_control_would_have():
-    program = read(GOOD)
-    assert program.name == "MPM01"
-    by_text = {block.text.partition(" ")[2]: block for block in program.blocks}
-    assert by_text["M128 *"].tcp
-    last = [block for block in program.blocks if 129 in block.m][-1]
-    assert last.tcp and not program.blocks[program.blocks.index(last) + 1].tcp  # off at the end of its block
-    assert np.isnan(program.blocks[-2].position[:3]).all()  # retracted in the machine's own coordinates
-    cuts = [block for block in program.blocks if block.rapid is False and block.moves]
-    assert {block.feed for block in cuts} == {300.0, 1500.0, 500.0}
-    assert all(block.spindle for block in cuts) and not program.blocks[-1].spindle
-
-
-def test_incremental_words_are_added():
-    program = read("%X G71 *\r\nN1 G00 G40 G90 X+5 *\r\nN2 G91 X+2 *\r\nN3 X+2 *\r\nN9 %X G71 *\r\n")
-    assert [block.position[0] for block in program.blocks] == [5.0, 7.0, 9.0]
-
-
-def test_report_tells_lengths_times_ranges_and_errors():
-    program = program_of(KIND, TIP, AXIS, FEED)
-    parsed = read(GOOD)
-    report = program_report.report(program, len(parsed.blocks), check_program(parsed, dmu80p(), TIP, AXIS))
-    cuts = np.linalg.norm(np.diff(TIP, axis=0), axis=1)[KIND[1:] == "cut"].sum()
-    assert report.length_mm["cut"] == pytest.approx(cuts, rel=1e-9)
-    assert report.time_s["cut"] >= cuts / 1500.0 * 60.0 * 0.999
-    assert report.axes["B"].low > 0 and report.axes["C"].high - report.axes["C"].low > 360
-    assert report.largest_step_deg["C"] <= 10.0
-    assert report.pole_passages == 0
-    text = "\n".join(report.lines())
-    assert (
-        "Text parsed back: tip error <= 0.0000" in text and "Checks: passed" in text and "no limits" in text
-    )
-    assert report.to_dict()["axes"]["C"]["max_limit"] is None
-
-
-def test_report_counts_pole_passages_between_the_poses():
-    count = 9
-    tip = np.column_stack((np.arange(count), np.zeros(count), np.zeros(count)))
-    x = np.where(np.arange(count) % 2, 0.1, -0.1)  # to and fro over the pole, no pose in it
-    axis = np.column_stack((x, np.full(count, 0.001), np.ones(count)))
-    axis /= np.linalg.norm(axis, axis=1)[:, None]
-    kind = np.array(["rapid"] + ["cut"] * (count - 1))
-    program = program_of(kind, tip, axis, np.full(count, 500.0))
-    report = program_report.report(program, 0, check_program(read(write(program)), dmu80p()))
-    assert report.pole_passages == count - 1
-    assert report.nearest_to_pole_deg == pytest.approx(np.degrees(0.001), rel=0.1)
-    assert "not compared with a CL list" in "\n".join(report.lines())
-
-
 def test_rotary_axes_that_cannot_follow_take_longer():
     tip = np.array([[0.0, 0, 0], [0.001, 0, 0]])
     axis = directions(20.0, [0.0, 90.0])

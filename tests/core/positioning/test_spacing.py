@@ -15,11 +15,11 @@ from freecad_mpm.core import job, planning
 from freecad_mpm.core.base import EXAMPLES, TOOLS, InputError, Stages
 from freecad_mpm.core.job import FootprintSpec, Job, MethodSpec, Part, Setup
 from freecad_mpm.core.job import tool as tools
-from freecad_mpm.core.part import FaceArrays, prepare
+from freecad_mpm.core.part import prepare
 from freecad_mpm.core.path import cl_file, judge
 from freecad_mpm.core.path.cuts import middle_angle_deg
 from freecad_mpm.core.planning import Plan
-from freecad_mpm.core.positioning import spins, strip
+from freecad_mpm.core.positioning import spins
 from freecad_mpm.core.report import text as report
 
 WANTED_MM = 8.0
@@ -134,27 +134,6 @@ def test_the_spread_agrees_with_one_spin_at_a_time(saddle_job: Job) -> None:
     assert len(rows) == 6 and float(rows[4]["spin_deg"]) == 0.0
     assert float(rows[5]["direct_mm"]) == pytest.approx(found.direct[1, 2], abs=1e-6)
     assert np.nanmax(found.across) <= np.nanmax(found.direct)
-
-
-@pytest.mark.parametrize("scallop_mm", [0.02, 0.1])
-def test_the_strip_on_a_floor_is_that_of_the_ring(scallop_mm: float) -> None:
-    """Upright on a plane the ring is within h of it from edge to edge: 2 (Ro + sqrt(Ri² - (Ri - h)²))."""
-    knots = np.array([0.0, 0.0, 1.0, 1.0])
-    poles = np.array([[[0, 0, 0], [0, 100, 0]], [[100, 0, 0], [100, 100, 0]]], dtype=float)
-    floor = FaceArrays("Face1", "plane", 1, 1, knots, knots, poles)
-    tool = _core.Tool(6.7, 6.0, 6.0, 40.0)
-    ground = strip.ground_under([floor], np.array([50.0, 50.0]), tool.radius)
-    found = strip.width_mm(
-        tool,
-        np.array([50.0, 50.0, 0.0]),
-        np.array([0.0, 0.0, 1.0]),
-        np.array([56.7, 50.0, 0.0]),
-        ground,
-        np.array([0.0, 1.0, 0.0]),
-        scallop_mm,
-    )
-    right = 2 * (6.7 + np.sqrt(6.0**2 - (6.0 - scallop_mm) ** 2))
-    assert found == pytest.approx(right, abs=3 * strip.STEP_PER_RADIUS * tool.radius)
 
 
 def test_the_shipped_example_wants_a_spacing() -> None:
