@@ -46,6 +46,7 @@ class Feeds:
     vertical: float
 
     def of(self, kind: str) -> float:
+        """mm/s of a kind of move: cuts and links at the horizontal feed, all others at the vertical one."""
         return self.horizontal if kind in ("cut", "link") else self.vertical
 
 

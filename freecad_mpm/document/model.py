@@ -23,6 +23,7 @@ class ModelFaces:
 
     @property
     def check(self) -> list[str]:
+        """Names of the faces to keep clear of: all that are not machined."""
         return [face.name for face in self.faces if face.name not in set(self.machined)]
 
 

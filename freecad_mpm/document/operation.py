@@ -74,4 +74,5 @@ def create_operation(name: str, obj: Any = None, parentJob: Any = None) -> Any:
 
 
 def is_operation(obj: Any) -> bool:
+    """Asked by class, so also of an operation that has no path."""
     return isinstance(getattr(obj, "Proxy", None), MultiPointFinish)

@@ -12,6 +12,8 @@ from ..core.base import InputError, one_line
 
 @dataclass(frozen=True)
 class PostArguments:
+    """What was asked for; options that were not given are not in it, so that the job's hold."""
+
     tcp: bool
     options: dict[str, Any]  # of PostOptions
 
@@ -35,6 +37,7 @@ def parse(text: str) -> PostArguments:
 
 
 def help_text() -> str:
+    """As argparse prints it: what CAM shows as the tip of the arguments."""
     return _parser().format_help()
 
 

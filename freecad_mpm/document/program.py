@@ -29,6 +29,8 @@ COOLANT = {"None": "off", "Flood": "flood", "Mist": "mist"}
 
 @dataclass(frozen=True)
 class ProgramText:
+    """A program that was read back; with warnings it may be written, but should not be run unread."""
+
     text: str  # with the line ends that the control expects
     file_name: str  # with the ending that the control expects
     warnings: list[str]  # what the reader must know although it does not keep the program from being written

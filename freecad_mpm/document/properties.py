@@ -32,6 +32,8 @@ GROUPS = {
 
 @dataclass(frozen=True)
 class Property:
+    """A row of the table: how FreeCAD makes, shows and first fills one property."""
+
     name: str
     type: str  # FreeCAD's, without "App::Property"
     group: str

@@ -32,6 +32,7 @@ class UprightMoves:
 
     @property
     def axis(self) -> Floats:
+        """(M, 3): the set-up's z for all moves."""
         return np.tile(UPRIGHT, (len(self.kind), 1))
 
 

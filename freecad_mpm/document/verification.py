@@ -103,6 +103,7 @@ class Verification(compat.Stateless):
 
 
 def add_missing(obj: Any) -> None:
+    """Also to results of older versions; values that are there stay."""
     for one in PROPERTIES:
         if not hasattr(obj, one.name):
             obj.addProperty(f"App::Property{one.type}", one.name, one.group, one.doc)
@@ -144,6 +145,7 @@ def result_of(op: Any) -> Any | None:
 
 
 def is_result(obj: Any) -> bool:
+    """Asked by class, so also of a result whose operation is gone."""
     return isinstance(getattr(obj, "Proxy", None), Verification)
 
 

@@ -32,6 +32,7 @@ class Field:
             setattr(obj, self.name, self.read())
 
     def from_property(self, obj: Any) -> None:
+        """Show the property's value; the widget sends no signal, so nothing recomputes."""
         self.widget.blockSignals(True)
         self.write(plain(getattr(obj, self.name)))
         self.widget.blockSignals(False)

@@ -41,6 +41,7 @@ class PlaybackNodes:
             self._add(name, [_shape(mesh, colour_of(name, tables))], self._machine)
 
     def show_machine(self, shown: bool) -> None:
+        """The sketch of the machine alone; the tool is always shown."""
         self._machine.whichChild = coin.SO_SWITCH_ALL if shown else coin.SO_SWITCH_NONE
 
     def place(self, bodies: Mapping[str, Floats]) -> None:

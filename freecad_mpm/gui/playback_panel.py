@@ -46,6 +46,7 @@ class PlaybackPanel(panels.ClosingPanel):
         return self._place
 
     def go_to(self, place: float) -> None:
+        """A place as core.playback has it; before the start and after the end the nearest of both."""
         self._move(place)
         self._show_words()
 
@@ -69,6 +70,7 @@ class PlaybackPanel(panels.ClosingPanel):
         self.go_to_position(max(before - 1 if at_it else before, 0))
 
     def play(self) -> None:
+        """From here, or from the start when it stands at the end; at so many times the machine's own pace."""
         if self._place >= self.played.playback.last:
             self.go_to(0.0)
         self._last_tick = time.perf_counter()
@@ -76,6 +78,7 @@ class PlaybackPanel(panels.ClosingPanel):
         self.form.show_playing(True)
 
     def pause(self) -> None:
+        """Stay here; calling it again changes nothing."""
         self._timer.stop()
         self._show_words()
         self.form.show_playing(False)
@@ -169,9 +172,11 @@ class PlaybackForm(QtGui.QWidget):
 
     @property
     def speed_factor(self) -> float:
+        """Seconds of the machine that pass in one of ours."""
         return SPEEDS[self.speed.currentIndex()]
 
     def show_words(self, words: dict[str, str]) -> None:
+        """By the names of their rows; a name that is new gets a row, none is taken away."""
         for name, text in words.items():
             if name not in self._words:
                 self._words[name] = _text_field()
@@ -180,18 +185,21 @@ class PlaybackForm(QtGui.QWidget):
                 self._words[name].setText(text)
 
     def show_count(self, positions: int) -> None:
+        """Set the ranges of slider and field for so many positions; no signal is sent."""
         for widget, low in ((self.slider, 0), (self.number, 1)):
             widget.blockSignals(True)
             widget.setRange(low, positions - 1 + low)
             widget.blockSignals(False)
 
     def show_number(self, number: int) -> None:
+        """Of the position, from 0 (the field shows it from 1); no signal is sent."""
         for widget, low in ((self.slider, 0), (self.number, 1)):
             widget.blockSignals(True)
             widget.setValue(number + low)
             widget.blockSignals(False)
 
     def show_playing(self, playing: bool) -> None:
+        """Turn the button's icon into what a click on it would do next."""
         style = QtGui.QStyle.SP_MediaPause if playing else QtGui.QStyle.SP_MediaPlay
         self.run.setIcon(self.style().standardIcon(style))
 

@@ -26,10 +26,12 @@ class SpotNode:
             self.root.addChild(node)
 
     def show(self, point: Any) -> None:
+        """At a point (3,), mm in FreeCAD's global frame; put into the view when it is not there yet."""
         self._at.point.setValue(*(float(value) for value in point))
         if self._scene.findChild(self.root) < 0:
             self._scene.addChild(self.root)
 
     def clear(self) -> None:
+        """Calling it again changes nothing."""
         if self._scene.findChild(self.root) >= 0:
             self._scene.removeChild(self.root)

@@ -146,6 +146,7 @@ def _group(*nodes: Any) -> Any:
 
 
 def unpickable() -> Any:
+    """Clicks go through what follows it, to the faces behind."""
     node = coin.SoPickStyle()
     node.style = coin.SoPickStyle.UNPICKABLE
     return node

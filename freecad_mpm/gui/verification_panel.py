@@ -60,6 +60,7 @@ class VerificationPanel(panels.ClosingPanel):
         self._show_tool()
 
     def play_from_here(self) -> None:
+        """Close, and open a playback at the end of the move that cut the spot last."""
         op, move = self.result.Operation, self.move
         self._leave_for(lambda: playback_panel.open_panel(op).go_to_move(move))
 
@@ -177,16 +178,19 @@ class VerificationForm(QtGui.QWidget):
         self.show_history(_is_history(result))
 
     def show_history(self, shown: bool) -> None:
+        """Whether the result is of a path that is no more: then there is nothing to play."""
         self._history.setVisible(shown)
         if shown:
             self.play.setEnabled(False)
 
     def show_spot(self, point: Any, deviation_mm: float, cut_by: str) -> None:
+        """point: (3,) mm in FreeCAD's global frame."""
         words = (deviation_bands.length(deviation_mm), ", ".join(f"{value:.3f}" for value in point), cut_by)
         for label, text in zip(self._spot.values(), words):
             label.setText(text)
 
     def spot_words(self) -> dict[str, str]:
+        """What is shown of the spot, by the names of its rows; dashes before the first click."""
         return {name: label.text() for name, label in self._spot.items()}
 
     def _add_bands(self, layout: Any, result: Any) -> None:

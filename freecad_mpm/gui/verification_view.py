@@ -14,6 +14,8 @@ DISPLAY_MODE = "Deviation"
 
 
 class VerificationViewProvider(compat.Stateless):
+    """One display mode, the colours; the icon tells a result whose path has changed since."""
+
     def __init__(self, vobj: Any) -> None:
         vobj.Proxy = self
 

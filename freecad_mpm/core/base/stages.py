@@ -24,7 +24,7 @@ class Event(Protocol):
     """What `threading.Event` has."""
 
     def is_set(self) -> bool:
-        ...
+        """Asked every POLL_S seconds while a stage runs; True stops it."""
 
 
 Progress = Callable[[str, float], None]

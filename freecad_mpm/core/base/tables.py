@@ -78,6 +78,7 @@ class Table:
 
     @classmethod
     def error(cls, name: str, message: str) -> InputError:
+        """To be raised: names the table and the key, but not the file, which whoever reads it puts in front."""
         return InputError(f"[{cls.table}] {name}: {message}")
 
     @classmethod

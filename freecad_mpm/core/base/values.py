@@ -38,26 +38,33 @@ class Check:
 
 
 def positive(unit: str) -> Check:
+    """More than 0 and finite; gives a float."""
     return _number(f"a positive number of {unit}", unit, 0.0, ends=False)
 
 
 def not_negative(unit: str) -> Check:
+    """0 or more and finite; gives a float."""
     return _number(f"zero or a positive number of {unit}", unit, 0.0)
 
 
 def number(unit: str) -> Check:
+    """Of either sign, finite; gives a float."""
     return _number(f"a finite number of {unit}", unit)
 
 
 def between(lo: float, hi: float, unit: str) -> Check:
+    """lo <= value <= hi; gives a float."""
     return _number(f"a number of {unit} from {lo:g} to {hi:g}", unit, lo, hi)
 
 
 def inside(lo: float, hi: float, unit: str) -> Check:
+    """lo < value < hi; gives a float."""
     return _number(f"a number of {unit} more than {lo:g} and less than {hi:g}", unit, lo, hi, ends=False)
 
 
 def whole(lo: int, hi: int) -> Check:
+    """lo <= value <= hi; neither 2.0 nor true is a whole number."""
+
     def take(value: Any) -> int | None:
         fits = isinstance(value, int) and not isinstance(value, bool) and lo <= value <= hi
         return value if fits else None
@@ -66,6 +73,7 @@ def whole(lo: int, hi: int) -> Check:
 
 
 def choice(*names: str) -> Check:
+    """One of the names, written exactly like it."""
     what = " or ".join(f'"{name}"' for name in names)
     return Check(str, what, lambda value: value if value in names else None, choices=names)
 

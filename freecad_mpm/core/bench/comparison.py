@@ -174,6 +174,7 @@ def _gouges(job: Job, scene: Scene, positions: Positions, stages: Stages) -> tup
 
 
 def to_json(rows: Sequence[Row], more: Mapping[str, Any] = MappingProxyType({})) -> str:
+    """The text of bench.json or scaling.json, `more` beside the rows; ValueError for NaN or an infinity."""
     return json.dumps({"rows": list(rows), **more}, indent=2, allow_nan=False) + "\n"
 
 

@@ -81,6 +81,8 @@ class Measured:
 
     @property
     def row(self) -> dict[str, Any]:
+        """Its numbers for published.json, mm: pairs are (least, most); `thesis_mm` is None where the thesis has
+        none."""
         inside, along = self.interior, self.section.deviation_mm
         base = "saddle" if self.surface == EXCHANGED else self.surface
         thesis = THESIS.get((self.case.method, base))
@@ -194,6 +196,7 @@ def _cells(row: dict[str, Any]) -> tuple[str, ...]:
 
 
 def to_json(rows: Sequence[dict[str, Any]]) -> str:
+    """The text of published.json; the section's y, mm, stands beside the rows."""
     return json.dumps({"section_y_mm": SECTION_Y_MM, "rows": list(rows)}, indent=2, allow_nan=False) + "\n"
 
 

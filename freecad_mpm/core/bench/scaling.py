@@ -86,6 +86,7 @@ def run(progress: Progress | None = None) -> list[Row]:
 
 
 def table(rows: Sequence[Row]) -> Table:
+    """One row a measurement, in the order in which they were made."""
     return Table(HEADINGS, [_cells(row) for row in rows])
 
 

@@ -46,10 +46,12 @@ class Table:
     rows: Sequence[Sequence[str]]
 
     def markdown(self) -> str:
+        """Lines without an end of line after the last; a "|" in a cell is not escaped."""
         lines = [self.headings, ["---"] * len(self.headings), *self.rows]
         return "\n".join("| " + " | ".join(line) + " |" for line in lines)
 
     def columns(self, headings: Sequence[str]) -> Table:
+        """The table with these columns alone, in this order; ValueError for a heading that it has not."""
         which = [self.headings.index(heading) for heading in headings]
         return Table(headings, [[row[i] for i in which] for row in self.rows])
 
@@ -71,6 +73,7 @@ def comparison(rows: Sequence[Row]) -> Table:
 
 
 def single_threaded(rows: Sequence[Row]) -> list[Row]:
+    """The rows with the fewest threads that there are; they are more than one where only such were measured."""
     least = min((row["threads"] for row in rows), default=1)
     return [row for row in rows if row["threads"] == least]
 

@@ -11,6 +11,7 @@ from .console import ProgressLine
 
 
 def arguments(parser: ArgumentParser) -> None:
+    """All may be left out: the thesis' surfaces, all methods, files into out/."""
     parser.add_argument(
         "--surfaces", nargs="+", metavar="NAME", help="shipped examples or job files; default: thesis"
     )
@@ -38,6 +39,7 @@ def arguments(parser: ArgumentParser) -> None:
 
 
 def run(given: Namespace, progress: ProgressLine) -> int:
+    """Compute first and write last: an error, a page without markers among them, leaves all files as they were."""
     output.check_folder(given.out)
     if given.published:
         return _published(given, progress)

@@ -11,6 +11,7 @@ from .console import ProgressLine
 
 
 def arguments(parser: ArgumentParser) -> None:
+    """The program and the machine; post and CL file where they are known."""
     parser.add_argument("program", metavar="PROGRAM")
     parser.add_argument("--machine", metavar="NAME", required=True, help=KEYS["machine.name"].check.what)
     parser.add_argument("--post", metavar="NAME", help="whose dialect it is; default: the one it looks like")
@@ -21,6 +22,7 @@ def arguments(parser: ArgumentParser) -> None:
 
 
 def run(given: Namespace, progress: ProgressLine) -> int:
+    """Status 1 when there is any finding; nothing is written."""
     found = check_file(given.program, given.machine, given.post, given.against, not given.joints)
     print(*found.lines, sep="\n")
     return GOOD if found.good else NOT_GOOD

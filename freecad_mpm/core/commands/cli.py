@@ -20,6 +20,7 @@ class Parser(argparse.ArgumentParser):
     """Bad arguments get one line and status 2, like all bad input."""
 
     def error(self, message: str) -> NoReturn:
+        """Called by argparse; never returns."""
         self.exit(BAD_INPUT, f"{self.prog}: {one_line(message)}; see {self.prog} --help\n")
 
 
@@ -47,6 +48,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def make_parser() -> Parser:
+    """One word a command, with the first line of its module as the help; the result's `run` takes it and a
+    ProgressLine."""
     parser = Parser(prog="freecad_mpm", description="Multi-point five-axis machining with toroidal cutters.")
     words = parser.add_subparsers(required=True, metavar="COMMAND", parser_class=Parser)
     for command in _commands():

@@ -30,6 +30,7 @@ class ProgressLine:
         print(line, flush=True)
 
     def clear(self) -> None:
+        """Leave an empty line for what is printed next; nothing when stderr is no terminal."""
         if self._is_terminal:
             sys.stderr.write(CLEAR_LINE)
             sys.stderr.flush()

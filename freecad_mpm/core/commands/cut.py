@@ -33,6 +33,7 @@ Sections = dict[str, tuple[Section, Floats | None]]
 
 
 def arguments(parser: ArgumentParser) -> None:
+    """The job, what is cut instead of its own path, and how finely it is looked at."""
     parser.add_argument("job", metavar="JOB.toml")
     parser.add_argument("program", metavar="PROGRAM|cl.csv", nargs="?", help="default: the job is planned")
     parser.add_argument(

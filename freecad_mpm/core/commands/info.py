@@ -10,9 +10,11 @@ from .console import ProgressLine
 
 
 def arguments(parser: ArgumentParser) -> None:
+    """Only the file: its ending tells its format."""
     parser.add_argument("file", metavar="FILE", help="STEP, IGES, BREP or Bézier text")
 
 
 def run(given: Namespace, progress: ProgressLine) -> int:
+    """Print one line a face; nothing is written. Raises InputError for a file that cannot be read."""
     print(*info_lines(given.file), sep="\n")
     return GOOD

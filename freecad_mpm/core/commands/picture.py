@@ -12,6 +12,7 @@ from .console import ProgressLine
 
 
 def arguments(parser: ArgumentParser) -> None:
+    """The job and its positions, counted from 1 as people do."""
     parser.add_argument("job", metavar="JOB.toml")
     parser.add_argument(
         "--position", metavar="N", nargs="+", type=_position, required=True, help="in machining order, from 1"
@@ -21,6 +22,7 @@ def arguments(parser: ArgumentParser) -> None:
 
 
 def run(given: Namespace, progress: ProgressLine) -> int:
+    """Plan the job anew and write one PNG a position; status 0 whatever the verdict is."""
     output.check_folder(given.out)
     computed = planning.plan(job.load(given.job), on_progress=progress, threads=given.threads)
     stages = Stages(progress, threads=given.threads)

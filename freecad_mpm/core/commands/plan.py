@@ -14,6 +14,7 @@ from .console import ProgressLine
 
 
 def arguments(parser: ArgumentParser) -> None:
+    """The job and the folder; --proof asks for one program more."""
     parser.add_argument("job", metavar="JOB.toml")
     parser.add_argument(
         "--out", metavar="DIR", required=True, help="folder for the results, made when missing"
@@ -27,6 +28,7 @@ def arguments(parser: ArgumentParser) -> None:
 
 
 def run(given: Namespace, progress: ProgressLine) -> int:
+    """Print the report and write all files, also when the verdict, and so the status, is not good."""
     output.check_folder(given.out)
     computed = planning.plan(job.load(given.job), on_progress=progress, threads=given.threads)
     resolution = removal.default_resolution_mm(computed.scene)

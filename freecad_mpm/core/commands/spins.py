@@ -17,6 +17,7 @@ from .console import ProgressLine
 
 
 def arguments(parser: ArgumentParser) -> None:
+    """The job, the footprint points (mm, set-up frame), the steps of the spin and the scallop."""
     parser.add_argument("job", metavar="JOB.toml")
     parser.add_argument("--out", metavar="DIR", required=True, help="folder for spins.csv and the pictures")
     parser.add_argument(
@@ -37,6 +38,7 @@ def arguments(parser: ArgumentParser) -> None:
 
 
 def run(given: Namespace, progress: ProgressLine) -> int:
+    """Write spins.csv and its pictures; no path is made, so the status is 0 when they are written."""
     output.check_folder(given.out)
     spec = job.load(given.job)
     stages = Stages(progress, threads=given.threads)

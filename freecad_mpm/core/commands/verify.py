@@ -11,12 +11,14 @@ from .console import ProgressLine
 
 
 def arguments(parser: ArgumentParser) -> None:
+    """The job, whose part and tool judge, and the CL file."""
     parser.add_argument("job", metavar="JOB.toml")
     parser.add_argument("cl_file", metavar="cl.csv")
     add_threads(parser)
 
 
 def run(given: Namespace, progress: ProgressLine) -> int:
+    """Status 1 when a pose cuts too deep or a move is not proven free; nothing is written."""
     spec = job.load(given.job)
     found = path.verify(spec, path.read_csv(given.cl_file), Stages(progress, threads=given.threads))
     progress.clear()

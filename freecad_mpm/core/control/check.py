@@ -236,6 +236,7 @@ class CheckResult:
 
     @property
     def good(self) -> bool:
+        """No check has found anything; without a CL list less was checked."""
         return not self.findings
 
 

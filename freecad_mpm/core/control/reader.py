@@ -73,6 +73,8 @@ class Motion:
 
 @dataclass(frozen=True)
 class ParsedProgram:
+    """A program as its control reads it, the wrong places included: they end no reading."""
+
     name: str
     blocks: list[Block]
     grammar: list[tuple[int | None, str, str]] = field(

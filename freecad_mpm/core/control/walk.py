@@ -48,6 +48,7 @@ class Walk:
 
     @property
     def axis_error_deg(self) -> float:
+        """Largest over the program's poses that belong."""
         return max(self._worst[1], self._last[1])
 
     def step(self, tip: Point, axis: Point, rapid: bool, axis_slack_deg: float = 0.0) -> str:

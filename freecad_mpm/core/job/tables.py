@@ -41,6 +41,7 @@ class Setup(Table):
     )
 
     def check_together(self) -> None:
+        """Raises InputError when x and z span no plane."""
         if values.are_parallel(self.x, self.z):
             raise self.error("x", f"must not be parallel to z {list(self.z)}, got {list(self.x)}")
 
@@ -101,6 +102,7 @@ class MethodSpec(Table):
     options: dict[str, Any] = key(values.options, dict, "Numbers of the method's own")
 
     def check_together(self) -> None:
+        """Raises InputError when two keys both decide the spin."""
         if self.contact_spacing_mm and self.spin_deg:
             raise self.error(
                 "spin_deg", f"must be 0 when a contact spacing chooses the spin, got {self.spin_deg:g}"
@@ -180,6 +182,8 @@ KEYS = {one.full_name: one for table in _TABLES for one in table.keys()}
 
 @dataclass(frozen=True)
 class Job:
+    """All that a plan depends on, checked; two are equal wherever they came from."""
+
     part: Part
     tool: ToolSpec
     setup: Setup = Setup()
@@ -192,4 +196,5 @@ class Job:
     label: str = field(default="job", compare=False)  # put in front of messages: its file, or its operation
 
     def error(self, table: str, name: str, message: str) -> InputError:
+        """To be raised: names the job's label, the table and the key."""
         return InputError(f"{self.label}: [{table}] {name}: {message}")

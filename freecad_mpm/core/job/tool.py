@@ -61,6 +61,7 @@ class ToolSpec(Table):
     name: str = key(values.any_text, "", "What lists and messages call it")
 
     def check_together(self) -> None:
+        """Raises InputError for a shape that no torus cutter has; fills in the flute length, mm, where it is 0."""
         if self.radius_mm == 0:
             raise self.error("major_radius_mm", "must not be 0 when minor_radius_mm is 0 too")
         if self.recess_mm > self.minor_radius_mm:

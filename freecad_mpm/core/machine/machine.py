@@ -83,6 +83,7 @@ class LinearAxis(Table):
     max_jerk_mm_per_s3: float = key(positive_or_none("mm/s3"), math.inf)
 
     def native(self) -> _core.LinearAxis:
+        """Without name and jerk, which no inverse kinematics needs."""
         return _core.LinearAxis(
             **{k: v for k, v in vars(self).items() if k not in ("name", "max_jerk_mm_per_s3")}
         )
@@ -107,11 +108,15 @@ class RotaryAxis(Table):
     max_jerk_deg_per_s3: float = key(positive_or_none("degrees per s3"), math.inf)
 
     def native(self) -> _core.RotaryAxis:
+        """Without the jerk, which no inverse kinematics needs; angles stay in degrees."""
         return _core.RotaryAxis(**{k: v for k, v in vars(self).items() if k != "max_jerk_deg_per_s3"})
 
 
 @dataclass(frozen=True, kw_only=True)
 class Kinematics(Table):
+    """How the chain is driven: which of several joint positions is taken, and how far a rotary axis may go in a
+    step."""
+
     table: ClassVar[str] = "kinematics"
 
     spindle_axis: Vector = key(values.direction, (0.0, 0.0, 1.0))
@@ -132,6 +137,7 @@ class MachineSetup(Table):
     retract_z_mm: float = key(number("mm"), 0.0)
 
     def native(self) -> _core.PartSetup:
+        """In mm, the part's origin in the machine frame with the table at zero."""
         return _core.PartSetup(part_origin_mm=self.part_origin_mm, tool_length_mm=self.tool_length_mm)
 
 
@@ -162,9 +168,11 @@ class Machine(Table):
 
     @classmethod
     def error(cls, name: str, message: str) -> InputError:
+        """To be raised: names the key; its file is put in front by who reads it."""
         return InputError(f"{name}: {message}")  # the keys stand at the top of the file, in no table
 
     def check_together(self) -> None:
+        """Raises InputError for linear axes that are not X, Y, Z, and for axes that make no five-axis machine."""
         if [axis.name for axis in self.linear_axes] != ["X", "Y", "Z"]:
             raise self.error("linear_axes", "must be X, Y and Z in this order")
         with blame("kinematics:"):

@@ -44,10 +44,12 @@ class Moves:
 
     @property
     def is_rapid(self) -> NDArray[np.bool_]:
+        """(M,): at the axes' own rates; every other kind runs at a feed."""
         return np.asarray(self.kind == "rapid")
 
 
 def check_array(name: str, array: Floats, shape: tuple[int, ...]) -> None:
+    """Raises InputError that names the array, and its first row that is not finite."""
     if array.shape != shape:
         raise InputError(f"{name}: must have shape {shape}, got {array.shape}")
     if not np.isfinite(array).all():

@@ -34,18 +34,23 @@ class Side:
         return cls(low.copy(), gain, gain * ease, np.where(ramps, u / even, 1.0))
 
     def seconds(self, peak: Floats) -> Floats:
+        """(H,) that it takes up to the rates `peak` (H,); 0 where these are not above its lowest."""
         change = np.maximum(peak - self.low, 0.0)
         return np.where(change > 0, ramp_seconds(change, self.gain, self.settle), 0.0)
 
     def u(self, peak: Floats) -> Floats:
+        """(H,) the way up to the rates `peak` (H,), in seconds at full rate."""
         return np.asarray(0.5 * (peak + self.low) * self.share * self.seconds(peak))
 
     def at(self, hump: int) -> Side:
+        """This side of one hump alone, as arrays (1,)."""
         return Side(*(column[hump : hump + 1] for column in (self.low, self.gain, self.settle, self.share)))
 
 
 @dataclass
 class Humps:
+    """All humps of a run, one a row; rates as parts of the full one. Timing them may lower their lowest rates."""
+
     u: Floats  # (H,) seconds at full rate
     peak: Floats  # (H,) greatest rate without jerk
     rise: Side

@@ -14,7 +14,7 @@ class SetupFrame(Protocol):
     """What can carry points (..., 3) from the part frame into a set-up frame (core.part.Frame)."""
 
     def to_setup(self, points: Floats) -> Floats:
-        ...
+        """Points (..., 3), mm, of the part frame; NaN stays NaN."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,10 +42,12 @@ class FaceArrays:
 
     @property
     def rational(self) -> bool:
+        """Its poles have weights; without them all count as 1."""
         return self.weights is not None
 
     @property
     def trimmed(self) -> bool:
+        """It has trim loops; without them the whole parameter rectangle belongs to it."""
         return len(self.trim_loops) > 0
 
     def transformed(self, frame: SetupFrame) -> FaceArrays:

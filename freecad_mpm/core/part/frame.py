@@ -20,15 +20,19 @@ class Frame:
     axes: Floats
 
     def to_setup(self, points: Floats) -> Floats:
+        """Points (..., 3), mm: shifted, then turned."""
         return self.direction_to_setup(points - self.origin)
 
     def to_part(self, points: Floats) -> Floats:
+        """Points (..., 3), mm: the inverse of `to_setup`, up to rounding."""
         return self.direction_to_part(points) + self.origin
 
     def direction_to_setup(self, directions: Floats) -> Floats:
+        """Directions (..., 3) are turned only; they keep their length."""
         return self._turned(directions, self.axes)
 
     def direction_to_part(self, directions: Floats) -> Floats:
+        """Directions (..., 3) are turned back only; they keep their length."""
         return self._turned(directions, self.axes.T)
 
     def _turned(self, directions: Floats, matrix: Floats) -> Floats:

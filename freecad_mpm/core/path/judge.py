@@ -38,6 +38,7 @@ class Verification:
 
     @property
     def good(self) -> bool:
+        """No pose cuts in too deep, and every move is proven free: "undecided" is not good."""
         return not self.too_deep.any() and bool((self.verdict == "free").all())
 
     @property

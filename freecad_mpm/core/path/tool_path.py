@@ -12,6 +12,7 @@ from ..part import Frame
 
 
 def path_in_part(path: ToolPath, frame: Frame) -> ToolPath:
+    """From the set-up frame; tips in mm and axes, all else as it was."""
     return replace(path, tip=frame.to_part(path.tip), axis=frame.direction_to_part(path.axis))
 
 

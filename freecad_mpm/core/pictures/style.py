@@ -35,6 +35,7 @@ LINK_STYLES = {
 
 
 def status_colour(status: str) -> str:
+    """ "#rrggbb"; grey for a status that has none of its own."""
     return STATUS_COLOURS.get(status, OTHER_STATUS)
 
 

@@ -33,48 +33,60 @@ class Plan:
 
     @property
     def tip(self) -> Floats:
+        """(N, 3) mm, part frame; NaN: no pose was found."""
         return self.positions.tip
 
     @property
     def axis(self) -> Floats:
+        """(N, 3) unit, part frame, from the tip to the spindle."""
         return self.positions.axis
 
     @property
     def contacts(self) -> Floats:
+        """(N, 2, 3) mm, part frame: first and second contact; NaN: none."""
         return self.positions.contacts
 
     @property
     def status(self) -> Names:
+        """(N,) names: how the position was found, or why there is none."""
         return self.positions.status
 
     @property
     def clearance(self) -> Floats:
+        """(N, 2) mm: lower and upper bound of the distance from all faces; an infinite one is not proven."""
         return self.positions.clearance
 
     @property
     def pass_index(self) -> Integers:
+        """(N,) from 0, as the footprint counts them."""
         return self.positions.pass_index
 
     @property
     def inserted(self) -> Flags:
+        """(N,): not of the footprint, but put in between to prove a cut."""
         return self.positions.inserted
 
     @property
     def normals(self) -> Floats:
+        """(N, 2, 3) unit, part frame: of the surface at the contacts, towards the tool; NaN: no contact."""
         return self.positions.normals
 
     @property
     def tilt_deg(self) -> Floats:
+        """(N,) degrees: β of docs/glossary.md, the turn until the tool touches again."""
         return self.positions.tilt_deg
 
     @property
     def spin_deg(self) -> Floats:
+        """(N,) degrees: α of docs/glossary.md, the turn before the tilt."""
         return self.positions.spin_deg
 
     @property
     def usable(self) -> Flags:
+        """(N,): the path may go there."""
         return self.positions.usable
 
     @property
     def neighbours(self) -> Flags:
+        """(N,): a cut should join the position and the one before it."""
         return self.positions.neighbours

@@ -101,6 +101,7 @@ def turned_to(direction: Floats) -> Floats:
 
 
 def translation(offset: Floats) -> Floats:
+    """(4, 4) that shifts by `offset` (3,) mm."""
     matrix = np.eye(4)
     matrix[:3, 3] = offset
     return matrix
@@ -115,4 +116,5 @@ def inverse(matrix: Floats) -> Floats:
 
 
 def unit(vector: ArrayLike) -> Floats:
+    """The direction of a vector (3,), length 1; NaN for the zero vector."""
     return np.asarray(vector, dtype=np.float64) / np.linalg.norm(vector)

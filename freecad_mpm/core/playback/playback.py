@@ -74,9 +74,11 @@ class Playback:
         return float(np.searchsorted(self.blocks.move, move, side="right")) - 1.0
 
     def seconds_at(self, place: float) -> float:
+        """Machine time from the start; held at both ends of the path."""
         return float(np.interp(place, np.arange(len(self.blocks)), self.seconds))
 
     def way_at(self, place: float) -> float:
+        """Way of the tip from the start, mm; held at both ends of the path."""
         return float(np.interp(place, np.arange(len(self.blocks)), self.way_mm))
 
     def advance(self, place: float, seconds: float, evenly: bool = False) -> float:
@@ -96,6 +98,8 @@ class Playback:
         return min(following, len(self.position_block) - 1)
 
     def moment(self, place: float) -> Moment:
+        """Between two blocks tip and rotary angles in proportion, the linear axes from them; held at both ends of
+        the path."""
         place = float(np.clip(place, 0.0, self.last))
         before = min(int(place), max(len(self.blocks) - 2, 0))
         after = min(before + 1, len(self.blocks) - 1)

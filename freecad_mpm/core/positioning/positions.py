@@ -11,6 +11,7 @@ from ..part import Frame
 
 
 def positions_in_part(positions: Positions, frame: Frame) -> Positions:
+    """From the set-up frame; tips and contacts in mm, axes and normals, all else as it was."""
     return replace(
         positions,
         tip=frame.to_part(positions.tip),

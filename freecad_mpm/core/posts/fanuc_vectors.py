@@ -10,4 +10,5 @@ JOINTS = False
 
 
 def write(first: Program, *more: Program) -> str:
+    """As `fanuc.write`, with the tool's direction in place of rotary angles."""
     return fanuc.write(first, *more, vectors=True)

@@ -37,6 +37,7 @@ def _style(program: Program, vector: tuple[str, str, str] | None, inverse_time: 
 
 
 def axis_words(program: Program, names: Iterable[str], values: Floats | Sequence[float]) -> str:
+    """Rounded to the post's decimals, mm or degrees, each with its point."""
     return words(names, values, f"%.{program.options.decimals}f", program.options.decimals)
 
 
@@ -46,4 +47,5 @@ def vector_words(program: Program, names: tuple[str, str, str]) -> str:
 
 
 def rotary_zero(program: Program) -> str:
+    """Words that turn both rotary axes to 0 degrees."""
     return axis_words(program, rotary_names(program), (0.0, 0.0))

@@ -20,6 +20,8 @@ _NOT_POSTS = {"iso6983", "options", "program", "registry", "tnc", "writing"}
 
 @dataclass(frozen=True)
 class Post:
+    """One writer of programs, and what must be known before it writes."""
+
     name: str
     file_ending: str  # with its dot, as the control expects it
     dialect: str  # of dialects.READERS: who reads the text back

@@ -11,4 +11,5 @@ FORM = tnc_klartext.Form("FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS", "FUNCTION
 
 
 def write(first: Program, *more: Program) -> str:
+    """As `tnc_klartext.write`, in the form at the head of this file."""
     return tnc_klartext.write(first, *more, form=FORM)

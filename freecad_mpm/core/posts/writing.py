@@ -164,6 +164,7 @@ def rotary_order(program: Program) -> list[int]:
 
 
 def rotary_names(program: Program) -> tuple[str, ...]:
+    """The letters in their order, which need not be the chain's."""
     return tuple(sorted(program.machine.rotary_letters))
 
 
@@ -173,6 +174,7 @@ def first_rotary(program: Program) -> list[float]:
 
 
 def rounded(values: Floats, decimals: int) -> Floats:
+    """To decimals, half to even; never -0.0, which would be written with its sign."""
     return np.round(values, decimals) + 0.0  # no minus zero
 
 
@@ -202,6 +204,7 @@ def plain(text: str) -> str:
 
 
 def check_range(name: str, values: Floats) -> None:
+    """Raises InputError that names the first row (of rows of mm or degrees) that no word can hold."""
     rows = np.flatnonzero(np.any(np.abs(values) > MAX_COORDINATE, axis=1))
     if len(rows):
         raise InputError(f"{name}[{rows[0]}]: must be within {MAX_COORDINATE}, the control takes no more")

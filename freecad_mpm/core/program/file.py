@@ -19,16 +19,20 @@ CHECKS = ("grammar", "state", "round trip", "limits", "continuity", "straightnes
 
 @dataclass(frozen=True)
 class Checked:
+    """A program that was read, what the checks found, and whether a CL file was among them."""
+
     program: ParsedProgram
     result: CheckResult
     compared: bool  # with a CL file
 
     @property
     def good(self) -> bool:
+        """No finding: the machine will do nothing that the checks object to."""
         return self.result.good
 
     @property
     def lines(self) -> list[str]:
+        """What was found, for people: one line a check, then the first findings."""
         findings = self.result.findings
         shown = [f"  {one}" for one in findings[:LISTED_FINDINGS]]
         more = len(findings) - len(shown)

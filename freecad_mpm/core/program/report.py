@@ -30,6 +30,8 @@ class AxisUse:
 
 @dataclass(frozen=True)
 class ProgramReport:
+    """What JSON and people get of a program; lengths, angles and times in the units that the names say."""
+
     blocks: int
     length_mm: dict[str, float]  # by kind of move
     time_s: dict[str, float]  # by kind of move, with the axes' accelerations

@@ -235,6 +235,7 @@ def _mesh(scene: Scene, dexels: _core.DexelStock) -> Mesh:
 
 
 def stock_box(scene: Scene, box: tuple[Sequence[float], Sequence[float]] | None, resolution_mm: float) -> Box:
+    """In mm, set-up frame: the faces' bounds, deepened by a base, when none is given. ValueError for an empty one."""
     if not (np.isfinite(resolution_mm) and resolution_mm > 0):
         raise ValueError(f"resolution_mm must be a positive number, got {resolution_mm}")
     lo, hi = (np.array(corner, dtype=np.float64) for corner in (box or scene.model.bounds()))

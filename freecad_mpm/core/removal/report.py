@@ -41,11 +41,13 @@ class Place:
         return cls(extreme.deviation_mm, extreme.point.tolist(), move, kind, details, **more)
 
     def to_dict(self) -> dict[str, Any]:
+        """For JSON; what is not known of a place is left out."""
         own = {name: value for name, value in vars(self).items() if name != "details"}
         unknown = {name for name in ("depth_mm", "face") if own[name] is None}
         return {name: value for name, value in own.items() if name not in unknown} | dict(self.details)
 
     def words(self) -> str:
+        """Deviation and point in mm, part frame, and the move that cut there."""
         x, y, z = self.point
         at = f"{self.deviation_mm:+.4f} mm at {x:.3f} {y:.3f} {z:.3f}"
         if self.move < 0:
@@ -67,6 +69,7 @@ class SectionFigures:
 
     @classmethod
     def of(cls, one: Section, by_probe: Floats | None) -> SectionFigures:
+        """by_probe: deviations that a ball probe would measure along it, mm; None: not probed."""
         return cls(
             one.plane.origin.tolist(),
             one.plane.normal.tolist(),
@@ -77,11 +80,13 @@ class SectionFigures:
         )
 
     def to_dict(self) -> dict[str, Any]:
+        """For JSON; the probe's figures have names that begin with `probed_`."""
         own = {name: value for name, value in vars(self).items() if name not in ("machined", "probed")}
         probed = {f"probed_{name}": value for name, value in (self.probed or {}).items()}
         return own | dict(self.machined) | probed
 
     def words(self, name: str) -> str:
+        """One line: least and largest deviation, mm."""
         low, high = self.machined["min_mm"], self.machined["max_mm"]
         line = f"Section {name}: {low:+.4f} to {high:+.4f} mm over {self.points} points"
         if self.probed is not None:
@@ -156,6 +161,7 @@ class CutReport:
         }
 
     def to_json(self) -> str:
+        """The text of cut.json; ValueError for NaN or an infinity."""
         return json.dumps(self.to_dict(), indent=2, allow_nan=False) + "\n"
 
     def text(self) -> str:

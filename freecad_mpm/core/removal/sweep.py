@@ -19,15 +19,15 @@ class PathMoves(Protocol):
 
     @property
     def kind(self) -> Names:
-        ...
+        """(M,) names; moves of NOT_CUTTING take nothing away."""
 
     @property
     def tip(self) -> Floats:
-        ...
+        """(M, 3) mm, part frame: where the move ends."""
 
     @property
     def axis(self) -> Floats:
-        ...
+        """(M, 3) unit, part frame, from the tip to the spindle, where the move ends."""
 
 
 class Box(NamedTuple):

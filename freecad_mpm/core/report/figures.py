@@ -31,6 +31,7 @@ class PositionFigures:
 
     @classmethod
     def of(cls, positions: Positions, tolerance: Tolerance, guarantee: str) -> PositionFigures:
+        """Counts, with those of the positions that are too deep or undecided within the tolerance."""
         with_contact = np.isfinite(positions.contacts).all(axis=2)
         return cls(
             count=len(positions),
@@ -87,6 +88,7 @@ class PathFigures:
 
     @classmethod
     def of(cls, positions: Positions, path: ToolPath, tolerance: Tolerance, guarantee: str) -> PathFigures:
+        """Lengths and clearances in mm; moves are counted from 0."""
         cuts = path.kind == "cut"
         lengths = np.linalg.norm(np.diff(path.tip, axis=0, prepend=path.tip[:1]), axis=1)
         return cls(
@@ -112,5 +114,6 @@ class TimeFigures:
 
     @classmethod
     def of(cls, seconds: Mapping[str, float], positions: Positions) -> TimeFigures:
+        """seconds: wall time by stage. Inserted positions do not count for the rate."""
         of_footprint = int(np.count_nonzero(~positions.inserted))
         return cls(dict(seconds), sum(seconds.values()), of_footprint / seconds["positions"])

@@ -23,9 +23,11 @@ class Verdict:
 
     @property
     def good(self) -> bool:
+        """Nothing speaks against the plan; what "good" rests on is the guarantee."""
         return not self.troubles
 
     def with_trouble(self, trouble: str) -> Verdict:
+        """With one more; this one stays as it is."""
         return Verdict(self.guarantee, (*self.troubles, trouble))
 
     @property
@@ -35,6 +37,7 @@ class Verdict:
 
     @property
     def line(self) -> str:
+        """For people: whether it is good, why not, and what that rests on."""
         basis = (
             "positions, cuts and links proven"
             if self.guarantee == PROVEN

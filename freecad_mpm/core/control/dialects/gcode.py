@@ -68,12 +68,14 @@ _SINGLE = frozenset("NXYZABCIJKFSTHDOPQ")
 
 
 def read_linuxcnc(text: str) -> ParsedProgram:
+    """Lines end with LF, the program with M30; what is wrong stands in `grammar`."""
     rows, grammar = text_lines(text, "\n")
     blocks, wrong = blocks_of(_with_inverse_time(_line(row, LINUXCNC) for row in rows))
     return ParsedProgram(_name(rows[0]), blocks, grammar + wrong + _ending(rows, "M30"))
 
 
 def read_sinumerik(text: str) -> ParsedProgram:
+    """As LinuxCNC, with block numbers that must rise; what is wrong stands in `grammar`."""
     rows, grammar = text_lines(text, "\n")
     blocks, wrong = blocks_of(_with_inverse_time(_line(row, SINUMERIK) for row in rows))
     grammar += wrong + rising_numbers(blocks) + _ending(rows, "M30")
@@ -81,6 +83,7 @@ def read_sinumerik(text: str) -> ParsedProgram:
 
 
 def read_fanuc(text: str) -> ParsedProgram:
+    """Lines end with CRLF, between two of % and named by Onnnn; what is wrong stands in `grammar`."""
     rows, grammar = text_lines(text, "\r\n")
     if len(rows) < 3 or rows[0] != "%" or rows[-1] != "%" or not re.match(r"O\d{4}\b", rows[1]):
         grammar.append((None, rows[0], "the program must start with % and Onnnn and end with %"))
