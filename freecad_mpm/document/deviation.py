@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tempfile
 from dataclasses import dataclass
-from pathlib import Path as FilePath
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -49,7 +49,7 @@ def store(result: Any, cut: Cut) -> None:
     FreeCAD copies the file into the document."""
     found, aside = cut.deviation, cut.overcut
     with tempfile.TemporaryDirectory() as folder:
-        file = FilePath(folder) / "deviation.npz"
+        file = Path(folder) / "deviation.npz"
         np.savez_compressed(
             file,
             points=np.concatenate((found.points, aside.points)).astype(np.float32),

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import hashlib
 import tempfile
-from pathlib import Path as FilePath
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import FreeCAD
@@ -245,6 +245,6 @@ def _mesh(cut: Cut) -> Any:
     from ..core.removal import mesh_file
 
     with tempfile.TemporaryDirectory() as folder:
-        file = FilePath(folder) / "stock.ply"
+        file = Path(folder) / "stock.ply"
         file.write_bytes(mesh_file.to_bytes(file.name, *cut.mesh()))
         return Mesh.Mesh(str(file))

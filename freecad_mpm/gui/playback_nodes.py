@@ -9,11 +9,7 @@ import numpy as np
 from pivy import coin
 
 from ..core.base import Floats
-from ..core.playback import TOOL_COLOURS, Mesh
-from ..core.playback import bodies as machine_motion
-from ..core.playback import colour_of
-from ..core.playback import sketch as machine_bodies
-from ..core.playback import table_letters, tool_solid
+from ..core.playback import PART, TOOL, TOOL_COLOURS, Mesh, colour_of, sketch, table_letters, tool_solid
 from ..document.playback import Played
 from .toolpath_nodes import CUT_COLORS, Lines, unlit, unpickable
 
@@ -32,12 +28,12 @@ class PlaybackNodes:
         self.root, self.part = coin.SoSeparator(), coin.SoMatrixTransform()
         self.root.addChild(unpickable())
         self._matrices: dict[str, Any] = {}
-        self._add(machine_motion.TOOL, _tool(played), self.root)
+        self._add(TOOL, _tool(played), self.root)
         self._machine = coin.SoSwitch()
         self.root.addChild(self._machine)
         tables = table_letters(played.playback.machine)
-        sketch = machine_bodies.sketch(played.playback.machine, played.part_box, played.tool)
-        for name, mesh in sketch.items():
+        meshes = sketch.sketch(played.playback.machine, played.part_box, played.tool)
+        for name, mesh in meshes.items():
             self._add(name, [_shape(mesh, colour_of(name, tables))], self._machine)
 
     def show_machine(self, shown: bool) -> None:
@@ -48,7 +44,7 @@ class PlaybackNodes:
         """Move everything; `bodies` as core.playback.Playback.body_matrices gives them."""
         for name, node in self._matrices.items():
             node.matrix = _coin_matrix(bodies[name])
-        self.part.matrix = _coin_matrix(bodies[machine_motion.PART])
+        self.part.matrix = _coin_matrix(bodies[PART])
 
     def _add(self, name: str, shapes: list[Any], parent: Any) -> None:
         separator, matrix = coin.SoSeparator(), coin.SoMatrixTransform()

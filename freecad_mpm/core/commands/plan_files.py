@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from pathlib import Path as FilePath
+from pathlib import Path
 
 from .. import removal
 from ..base import Stages
@@ -52,5 +52,5 @@ def _picture(plan: Plan) -> bytes:
         [*scene.machined, *scene.check],
         machined=[face.name for face in scene.machined],
         gouge_mm=job.tolerance.gouge_mm,
-        title=f"{FilePath(job.part.file).name}, {job.method.name}: {len(plan)} positions",
+        title=f"{Path(job.part.file).name}, {job.method.name}: {len(plan)} positions",
     )

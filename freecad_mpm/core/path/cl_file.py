@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import csv
 from dataclasses import dataclass
-from pathlib import Path as FilePath
+from pathlib import Path
 
 import numpy as np
 
@@ -92,7 +92,7 @@ class ClMoves:
         return len(self.kind)
 
 
-def read_csv(path: str | FilePath) -> ClMoves:
+def read_csv(path: str | Path) -> ClMoves:
     """The moves of a cl.csv, ours or not: columns in any order; only the tip and the axis must be there.
 
     Raises InputError that names the file and the line, what is wrong and what would be right."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from pathlib import Path as FilePath
+from pathlib import Path
 from typing import Any
 
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -18,7 +18,7 @@ from .figure import png_bytes
 WIDTH_PX, HEIGHT_PX, DPI = 1600, 1000, 100
 
 
-def draw(plan: Plan, faces: Sequence[FaceArrays], path: str | FilePath, **options: Any) -> None:
+def draw(plan: Plan, faces: Sequence[FaceArrays], path: str | Path, **options: Any) -> None:
     """Write the PNG of `render` to `path`, whole or not at all. Raises InputError when it cannot be written."""
     write_atomically(path, render(plan, faces, **options))
 

@@ -15,9 +15,20 @@ from ..base import Floats, InputError
 from ..job import ToolSpec
 from ..part import FaceArrays, quads
 from ..planning import Plan
-from ..playback import TOOL_COLOURS, Colour, Playback, Visited
-from ..playback import bodies as machine_motion
-from ..playback import colour_of, describe, make_playback, sketch, table_letters, tool_solid
+from ..playback import (
+    PART,
+    TOOL,
+    TOOL_COLOURS,
+    Colour,
+    Playback,
+    Visited,
+    colour_of,
+    describe,
+    make_playback,
+    sketch,
+    table_letters,
+    tool_solid,
+)
 from . import style
 from .figure import png_bytes
 
@@ -76,7 +87,7 @@ def render(played: Playback, place: float, faces: Sequence[FaceArrays], tool: To
     box = _box(part)
     on_machine = figure.add_axes((0.40, 0.0, 0.40, 1.0), projection="3d", computed_zorder=False)
     machine = _machine(played, box, tool, bodies)
-    _fill(on_machine, [*_part(part, bodies[machine_motion.PART]), *_tool(tool, bodies), *machine])
+    _fill(on_machine, [*_part(part, bodies[PART]), *_tool(tool, bodies), *machine])
     words = "\n".join(f"{name}: {value}" for name, value in describe(played, place).items())
     figure.text(0.81, 0.90, words, fontsize=12, va="top", linespacing=1.5)
     return png_bytes(figure)
@@ -87,7 +98,7 @@ def _part(patches: Sequence[Floats], matrix: Floats) -> list[tuple[Floats, Colou
 
 
 def _tool(tool: ToolSpec, bodies: Mapping[str, Floats]) -> list[tuple[Floats, Colour]]:
-    matrix = bodies[machine_motion.TOOL]
+    matrix = bodies[TOOL]
     return [
         (_moved(_cut_up(mesh), matrix), TOOL_COLOURS[name]) for name, mesh in tool_solid.meshes(tool).items()
     ]

@@ -5,7 +5,8 @@ To add a body: its mesh in `sketch.py`, its matrix in `bodies.py`."""
 
 from __future__ import annotations
 
-from . import bodies, playback, sketch, tool_solid
+from . import playback, sketch, tool_solid
+from .bodies import PART, TOOL
 from .playback import Playback, Visited, describe, make_playback
 from .style import TOOL_COLOURS, Colour, colour_of, table_letters
 from .tool_solid import Mesh
@@ -13,10 +14,11 @@ from .tool_solid import Mesh
 __all__ = [
     "Colour",
     "Mesh",
+    "PART",
     "Playback",
+    "TOOL",
     "TOOL_COLOURS",
     "Visited",
-    "bodies",
     "colour_of",
     "describe",
     "make_playback",

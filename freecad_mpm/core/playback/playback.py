@@ -9,7 +9,7 @@ import numpy as np
 from ..base import Floats, Integers, Names
 from ..control import kinematics
 from ..machine import JointPath, Machine, move_seconds
-from . import bodies as machine_motion
+from .bodies import body_matrices, seen_from_part
 
 # A path that takes no time at all has no mean speed.
 LEAST_SECONDS = 1e-9
@@ -126,8 +126,8 @@ class Playback:
 
     def body_matrices(self, moment: Moment, part_fixed: bool) -> dict[str, Floats]:
         """Body -> matrix (4, 4) as `bodies.body_matrices`, or as seen from the part."""
-        bodies = machine_motion.body_matrices(self.machine, moment.rotary_deg, moment.linear_mm)
-        return machine_motion.seen_from_part(bodies) if part_fixed else bodies
+        bodies = body_matrices(self.machine, moment.rotary_deg, moment.linear_mm)
+        return seen_from_part(bodies) if part_fixed else bodies
 
 
 def make_playback(machine: Machine, blocks: JointPath, visited: Visited) -> Playback:

@@ -12,8 +12,8 @@ from freecad_mpm.core import machine as machines
 from freecad_mpm.core.base import TOOLS
 from freecad_mpm.core.job import tool
 from freecad_mpm.core.machine import joint_path
-from freecad_mpm.core.playback import bodies as machine_motion
 from freecad_mpm.core.playback import playback, sketch
+from freecad_mpm.core.playback.bodies import body_matrices, inverse, seen_from_part
 
 LENGTH_MM, ORIGIN_MM = 160.0, (12.0, -7.0, 55.0)
 UP = np.array([0.0, 0.0, 1.0])
@@ -45,8 +45,8 @@ def test_the_tool_stands_where_the_path_says_on_every_machine(name):
     played = playback_of(machine)
     assert "unreachable" not in set(played.blocks.status)
     for row in range(0, len(played.blocks), 7):
-        bodies = machine_motion.seen_from_part(
-            machine_motion.body_matrices(machine, played.blocks.rotary_deg[row], played.blocks.linear_mm[row])
+        bodies = seen_from_part(
+            body_matrices(machine, played.blocks.rotary_deg[row], played.blocks.linear_mm[row])
         )
         assert bodies["tool"][:3, 3] == pytest.approx(played.blocks.tip[row], abs=1e-9)
         assert bodies["tool"][:3, 2] == pytest.approx(played.blocks.axis[row], abs=1e-9)
@@ -55,7 +55,7 @@ def test_the_tool_stands_where_the_path_says_on_every_machine(name):
 
 def test_a_table_turns_against_its_reading_and_a_head_with_it():
     machine = machine_named("head_b_table_c")  # C carries the part, B the tool; both senses ISO
-    bodies = machine_motion.body_matrices(machine, [90.0, 30.0], ORIGIN_MM)
+    bodies = body_matrices(machine, [90.0, 30.0], ORIGIN_MM)
     # The tool moves from x to y relative to the part, thus the part from y to x.
     assert bodies["part"][:3, :3] @ [0, 1, 0] == pytest.approx([1, 0, 0], abs=1e-12)
     assert bodies["part"] == pytest.approx(bodies["C"])
@@ -67,11 +67,11 @@ def test_a_table_turns_against_its_reading_and_a_head_with_it():
 def test_the_outer_table_carries_the_inner_one():
     machine = machine_named("table_ac")
     origin = np.array(machine.rotary_axes[1].joint_origin_mm) - ORIGIN_MM
-    bodies = machine_motion.body_matrices(machine, [40.0, -90.0], (0.0, 0.0, 0.0))
+    bodies = body_matrices(machine, [40.0, -90.0], (0.0, 0.0, 0.0))
     quarter = np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]])  # the table A at -90 turns by +90 about x
     assert bodies["A"][:3, :3] == pytest.approx(quarter, abs=1e-12)
     assert bodies["A"][:3, :3] @ origin + bodies["A"][:3, 3] == pytest.approx(origin)
-    alone = machine_motion.body_matrices(machine, [40.0, 0.0], (0.0, 0.0, 0.0))["C"]
+    alone = body_matrices(machine, [40.0, 0.0], (0.0, 0.0, 0.0))["C"]
     assert bodies["C"] == pytest.approx(bodies["A"] @ alone)
 
 
@@ -79,7 +79,7 @@ def test_with_the_part_at_rest_all_bodies_keep_their_places_to_each_other(played
     moment = played.moment(30.4)
     free, fixed = (played.body_matrices(moment, part_fixed) for part_fixed in (False, True))
     for name in free:
-        assert fixed[name] == pytest.approx(machine_motion.inverse(free["part"]) @ free[name], abs=1e-9)
+        assert fixed[name] == pytest.approx(inverse(free["part"]) @ free[name], abs=1e-9)
 
 
 def test_a_place_between_two_blocks_runs_evenly(played):
@@ -161,5 +161,5 @@ def test_the_sketch_has_every_body_and_the_table_lies_under_the_part(name):
     first = machine.rotary_axes[0]
     if first.role == "table_rotary":
         assert bodies[first.name].points[:, 2].max() <= low[2] + 1e-9
-    placed = machine_motion.body_matrices(machine, [0.0, 0.0], ORIGIN_MM)
+    placed = body_matrices(machine, [0.0, 0.0], ORIGIN_MM)
     assert set(bodies) <= set(placed)
