@@ -34,7 +34,6 @@ op = freecad_mpm.create(doc, [(part, {faces!r})], SideStep=6, ForwardStep=3, Mac
 view = Gui.ActiveDocument.ActiveView
 view.viewIsometric()
 view.fitAll()
-settle(500)
 """
 PLAYBACK = """
 from freecad_mpm.gui import playback_panel
@@ -42,21 +41,17 @@ panel = playback_panel.open_panel(op)
 panel.form.view.setCurrentIndex(1)
 panel.go_to_position(int(0.62 * op.Positions))
 view.fitAll()
-settle(1000)
 """
 VERIFICATION = """
 panel.reject()
-settle(300)
 op.ViewObject.Visibility = False
 from freecad_mpm.document import verification
 from freecad_mpm.gui import verification_panel
 found = verification.verify(op)
 panel = verification_panel.open_panel(found)
 view.fitAll()
-settle(500)
 centre = part.Shape.BoundBox.Center
 panel.show_spot(FreeCAD.Vector(centre.x - 12, centre.y + 15, part.Shape.BoundBox.ZMax))
-settle(1000)
 """
 
 
@@ -72,7 +67,7 @@ def main(folder: Path) -> None:
     spec = job.load(ROOT / "resources" / "examples" / f"{EXAMPLE}.toml")
     folder.mkdir(parents=True, exist_ok=True)
     with FreeCADWindow(Path(tempfile.mkdtemp())) as window:
-        window.run(PART.format(name=EXAMPLE, step=str(spec.part.file), faces=spec.part.faces), 300)
+        window.run(PART.format(name=EXAMPLE, step=str(spec.part.file), faces=spec.part.faces))
         picture(window, PLAYBACK, folder / "playback.png")
         picture(window, VERIFICATION, folder / "verification.png")
 
