@@ -119,8 +119,21 @@ def button_of(command):
                 return middle_of(bar.widgetForAction(action))
     raise LookupError(command)
 
+def shown(kind):
+    # the visible widgets of a kind; one that Qt is just deleting is none
+    found = []
+    for widget in window.findChildren(kind):
+        try:
+            if widget.isVisible():
+                found.append(widget)
+        except RuntimeError:
+            pass
+    return found
+
 def panel_button(which):
-    return middle_of(next(box for box in window.findChildren(QtGui.QDialogButtonBox) if box.isVisible()).button(which))
+    # None until a panel is there
+    boxes = shown(QtGui.QDialogButtonBox)
+    return middle_of(boxes[0].button(which)) if boxes else None
 
 def unfold(obj):
     # shows obj in the tree and its properties below

@@ -2,7 +2,7 @@
 
     python3 -m freecad_mpm COMMAND …        main(["plan", "job.toml", "--out", "out"])
 
-To add a command: one file with `arguments` and `run`, its name in `cli.py`, one section in docs/command-line.md."""
+To add a command: one file with `arguments` and `run`, its row in `cli.COMMANDS`, one section in docs/command-line.md."""
 
 from __future__ import annotations
 

@@ -6,6 +6,7 @@ import argparse
 import os
 import sys
 from collections.abc import Sequence
+from importlib import import_module
 from types import ModuleType
 from typing import NoReturn
 
@@ -14,6 +15,18 @@ from .console import ProgressLine
 
 BAD_INPUT = 2
 INTERRUPTED, BROKEN_PIPE = 130, 141  # as shells report Ctrl-C, and a reader that has gone
+
+# Word -> what the list of commands says of it. Each is the module of that name beside this one.
+COMMANDS = {
+    "plan": "compute a job: positions, path, program, report",
+    "info": "list the faces of a part",
+    "verify": "judge the poses of a CL file against a job's part and tool",
+    "check": "read a program's text as its control would and check it",
+    "spins": "all spins over some points: contacts, spacing, strip width",
+    "cut": "cut a plan, a CL file or a program into the stock and measure what is left",
+    "picture": "draw tool and machine at chosen positions of a job's path",
+    "bench": "compare the methods and write bench.json",
+}
 
 
 class Parser(argparse.ArgumentParser):
@@ -27,8 +40,9 @@ class Parser(argparse.ArgumentParser):
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command and return its exit status; bad input is one line on stderr."""
     progress = ProgressLine()
+    given = list(sys.argv[1:] if arguments is None else arguments)
     try:
-        parsed = make_parser().parse_args(arguments)
+        parsed = make_parser(*given[:1]).parse_args(given)
         status: int = parsed.run(parsed, progress)
         sys.stdout.flush()
         return status
@@ -47,25 +61,23 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return BROKEN_PIPE
 
 
-def make_parser() -> Parser:
-    """One word a command, with the first line of its module as the help; the result's `run` takes it and a
-    ProgressLine."""
+def make_parser(chosen: str = "") -> Parser:
+    """The parser of all words, with the arguments of the chosen one: no other command is loaded."""
     parser = Parser(prog="freecad_mpm", description="Multi-point five-axis machining with toroidal cutters.")
     words = parser.add_subparsers(required=True, metavar="COMMAND", parser_class=Parser)
-    for command in _commands():
-        name, summary = str(command.__doc__).strip("`.").split("`: ")
-        own = words.add_parser(name, help=summary)
-        command.arguments(own)
-        own.set_defaults(run=command.run)
+    for word, summary in COMMANDS.items():
+        own = words.add_parser(word, help=summary)
+        if word == chosen:
+            command = _load(word)
+            command.arguments(own)
+            own.set_defaults(run=command.run)
     return parser
 
 
-def _commands() -> tuple[ModuleType, ...]:
-    """The modules of the commands, in the order of the list; each one's docstring is its name and what the list says."""
+def _load(word: str) -> ModuleType:
     try:
-        from . import bench, check, cut, info, picture, plan, spins, verify
+        return import_module(f"{__package__}.{word}")
     except ImportError as error:
         raise InputError(
             f"the native modules cannot be loaded ({one_line(error)}): build them with ./dev build"
         ) from None
-    return plan, info, verify, check, spins, cut, picture, bench

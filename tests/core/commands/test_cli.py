@@ -7,11 +7,16 @@ import os
 import pty
 import resource
 import signal
+import subprocess
+import sys
 from collections.abc import Callable
+from importlib import import_module
 from pathlib import Path
 
 import pytest
-from command_line import LIMIT_S, run, start
+from command_line import LIMIT_S, ROOT, run, start
+
+from freecad_mpm.core.commands import cli
 
 # Processor time from Ctrl-C to the end of the process.
 STOPPED_S = 2.0
@@ -194,3 +199,24 @@ def test_a_reader_that_goes_away_is_no_error(thesis_part: Callable[[str], Path])
     assert process.stderr
     assert process.stderr.read() == ""
     assert process.wait(LIMIT_S) == 141
+
+
+@pytest.mark.parametrize("word", cli.COMMANDS)
+def test_every_word_of_the_list_is_a_command(word: str) -> None:
+    command = import_module(f"freecad_mpm.core.commands.{word}")
+    assert str(command.__doc__).startswith(f"`{word}`: ")
+    assert callable(command.arguments) and callable(command.run)
+
+
+@pytest.mark.parametrize(("words", "status"), [("--help", 0), ("plan job.toml --out out", 2)])
+def test_without_the_native_module_the_list_is_shown_and_a_command_says_what_to_do(
+    words: str, status: int
+) -> None:
+    block = "import sys; sys.modules['freecad_mpm._core'] = None; sys.argv = ['freecad_mpm', *sys.argv[1:]]; "
+    start = f"{block}from freecad_mpm.core.commands import main; sys.exit(main())"
+    found = subprocess.run(
+        [sys.executable, "-c", start, *words.split()], cwd=ROOT, capture_output=True, text=True
+    )
+    assert found.returncode == status
+    assert ("build them with ./dev build" in found.stderr) == (status == 2)
+    assert found.stderr.count("\n") == (1 if status else 0)
