@@ -52,7 +52,7 @@ def _name(found: re.Match[str]) -> str:
     whole, _, option = full_name.rpartition(".")
     if full_name not in NAMES and whole in NAMES:
         return f"{NAMES[whole]}: {option}"
-    return NAMES.get(full_name, found[0])
+    return NAMES.get(full_name, ALONE.get(found[2], found[0]))
 
 
 @contextmanager

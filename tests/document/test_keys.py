@@ -123,6 +123,10 @@ def test_every_key_is_said_in_freecads_words(one: Key) -> None:
             "[method] options.window: unknown",
             "the method's own options, which keep their defaults: window: unknown",
         ),
+        (
+            "[method] minor_radius_mm: exact needs",
+            "the tool's CornerRadius (Diameter / 2 less FlatRadius): exact",
+        ),
         ("[novel] some_key: is odd", "[novel] some_key: is odd"),
     ],
 )

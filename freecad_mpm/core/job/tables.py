@@ -2,10 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
-from ..base import InputError, Table, Vector, between, choice, inside, key, not_negative, positive, values
+from ..base import (
+    InputError,
+    Table,
+    Vector,
+    between,
+    choice,
+    inside,
+    key,
+    not_negative,
+    one_line,
+    positive,
+    values,
+)
 from .tool import ToolSpec
 
 # Names given when the job names none.
@@ -84,7 +98,7 @@ class MethodSpec(Table):
     spin_deg: float = key(
         between(-180, 180, "degrees"),
         0.0,
-        "Turn of the tilt direction about the vertical, from the feed direction; 0 where the method cannot spin",
+        "Turn of the tool about the normal at its first contact, before it tilts; 0 where the method cannot spin",
     )
     contact_spacing_mm: float = key(
         not_negative("mm"),
@@ -97,7 +111,9 @@ class MethodSpec(Table):
         "How the distance of the contacts is measured: across the feed, or direct from one to the other",
     )
     tilt_max_deg: float = key(
-        inside(0, 90, "degrees"), 45.0, "Largest angle between the tool axis and the vertical"
+        inside(0, 90, "degrees"),
+        45.0,
+        "Largest tilt; without a spin that is the angle between the tool axis and the vertical",
     )
     options: dict[str, Any] = key(values.options, dict, "Numbers of the method's own")
 
@@ -198,3 +214,15 @@ class Job:
     def error(self, table: str, name: str, message: str) -> InputError:
         """To be raised: names the job's label, the table and the key."""
         return InputError(f"{self.label}: [{table}] {name}: {message}")
+
+    @contextmanager
+    def blamed(self, table: str) -> Iterator[None]:
+        """Make a ValueError of the block, which begins with an argument's name, an InputError with label and table: that
+        which alone has a key of this name (a method may object to the tool), else `table`."""
+        try:
+            yield
+        except ValueError as error:
+            name = str(error).partition(":")[0]
+            owners = [key.table for key in KEYS.values() if key.name == name]
+            home = owners[0] if len(owners) == 1 else table
+            raise InputError(f"{self.label}: [{home}] {one_line(error)}") from None

@@ -9,7 +9,7 @@ from dataclasses import fields, replace
 import numpy as np
 
 from ... import _core
-from ..base import Floats, Integers, Stages, blame
+from ..base import Floats, Integers, Stages
 from ..job import Job
 from ..part import Scene
 from ..path import ToolPath, from_core, link_options
@@ -80,7 +80,7 @@ def interrupted(
 ) -> ToolPath:
     """The path with each of these cuts interrupted a fraction of it from its start, there a way up to the safe plane
     and down again. The rapid down is where the axes turn: at its upper end, with the tip held."""
-    with blame(f"{job.label}: [{job.link.table}]"):
+    with job.blamed(job.link.table):
         ways = [
             stages.run_native("path", _interruption, scene, path, int(move), where, options)
             for move, where in zip(cuts, seams)

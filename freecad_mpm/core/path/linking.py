@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ... import _core
-from ..base import Floats, Stages, blame
+from ..base import Floats, Stages
 from ..job import Job, MethodSpec, control_deviation_deg, control_tip_deviation_mm, cut_depth_mm
 from ..part import Scene
 from ..positioning import Positions, guarantee_of
@@ -36,7 +36,7 @@ def cut_length_max_mm(job: Job) -> float:
 def link(job: Job, scene: Scene, positions: Positions, cuts: Floats | None, stages: Stages) -> ToolPath:
     """The path over the usable positions, in the set-up frame. cuts: (N,) proven clearances of the cuts that end in the
     positions, NaN where there must be none; None: sampling decides."""
-    with blame(f"{job.label}: [{job.link.table}]"):
+    with job.blamed(job.link.table):
         linked = stages.run_native(
             "path",
             _core.link_passes,

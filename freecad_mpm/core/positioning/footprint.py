@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ... import _core
-from ..base import Flags, Floats, Integers, Stages, blame
+from ..base import Flags, Floats, Integers, Stages
 from ..job import FootprintSpec, Job
 from ..part import Scene
 
@@ -26,7 +26,7 @@ class Footprint:
 def lay_out(job: Job, scene: Scene, stages: Stages) -> Footprint:
     """The footprint over the faces to machine; where a pass leaves them it ends and a new one begins."""
     spec = job.footprint
-    with blame(f"{job.label}: [{spec.table}]"):
+    with job.blamed(spec.table):
         points, pass_index = stages.run("footprint", _raster, spec, *scene.model.machined_bounds())
     keep = stages.run("footprint", _core.restrict_to_faces, scene.model, scene.tool, points, spec.margin_mm)
     if not keep.any():

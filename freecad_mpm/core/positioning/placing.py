@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ... import _core
-from ..base import Stages, blame
+from ..base import Stages
 from ..job import Job, MethodSpec
 from ..part import Scene
 from . import spacing
@@ -29,7 +29,7 @@ def make_positioner(job: Job, scene: Scene, stages: Stages) -> _core.Positioner:
             cells=scene.cells,
         )
 
-    with blame(f"{job.label}: [{method.table}]"):
+    with job.blamed(method.table):
         return stages.run_native("index", make)
 
 
@@ -38,7 +38,7 @@ def place(
 ) -> tuple[Positions, spacing.Nearest, dict[str, int]]:
     """Positions in the set-up frame, what contact spacings come nearest to a wanted one, and the method's counters."""
     method, nearest = job.method, spacing.Nearest()
-    with blame(f"{job.label}: [{MethodSpec.table}]"):
+    with job.blamed(MethodSpec.table):
         if method.contact_spacing_mm:
             spaced = stages.run_native(
                 "positions",
@@ -57,13 +57,16 @@ def place(
 
 
 def as_positions(footprint: Footprint, placed: _core.Placements) -> Positions:
-    """What a positioner placed over the footprint."""
+    """What a positioner placed over the footprint. A spin may turn the axis of a tool on a steep wall below the horizon,
+    where no spindle is: nobody can go there, so that position is undecided."""
+    status = np.array(_core.POSITION_STATUS)[placed["status"]]
+    status[placed["axis"][:, 2] <= 0.0] = "undecided"
     return Positions(
         tip=placed["tip"],
         axis=placed["axis"],
         contacts=placed["contacts"],
         normals=placed["normals"],
-        status=np.array(_core.POSITION_STATUS)[placed["status"]],
+        status=status,
         clearance=placed["clearance"],
         tilt_deg=placed["tilt_deg"],
         spin_deg=placed["spin_deg"],

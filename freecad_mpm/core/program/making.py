@@ -120,7 +120,7 @@ def make_program(
 
     Raises InputError for what the post cannot write."""
     programs = [part.described(job, shop) for part in parts]
-    with blame(f"{job.label}: [{job.post.table}]"):
+    with job.blamed(job.post.table):
         text = stages.run("program", shop.post.write, *programs)
     blocks, checks = stages.run("check", _read_back, text, job, shop, parts)
     return Made(parts, programs, ProgramFile(stem + shop.post.file_ending, text), blocks, checks)

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..base import Floats, blame
+from ..base import Floats
 from ..job import Job, control_deviation_deg, control_tip_deviation_mm
 from ..machine import axes_of, joint_path
 from ..posts import Program, ProgramTool
@@ -65,6 +65,6 @@ def proof_program(job: Job, shop: Shop, box: tuple[Floats, Floats]) -> Program:
 
 def proof_file(job: Job, shop: Shop, box: tuple[Floats, Floats]) -> ProgramFile:
     """Its text. Raises InputError for a post that cannot write it."""
-    with blame(f"{job.label}: [{job.post.table}]"):
+    with job.blamed(job.post.table):
         text = shop.post.write(proof_program(job, shop, box))
     return ProgramFile(FILE_STEM + shop.post.file_ending, text)
