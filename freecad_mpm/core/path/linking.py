@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import Counter
+
 from ... import _core
 from ..base import Floats, Stages
 from ..job import Job, MethodSpec, control_deviation_deg, control_tip_deviation_mm, cut_depth_mm
@@ -50,7 +52,11 @@ def link(job: Job, scene: Scene, positions: Positions, cuts: Floats | None, stag
             cut_clearance=cuts,
         )
     if len(linked["kind"]) == 0:
+        statuses = Counter(positions.status[~positions.usable].tolist()).most_common()
+        told = ", ".join(f"{count} {status}" for status, count in statuses)
         raise job.error(
-            MethodSpec.table, "name", f"{job.method.name} found no usable position for this tool and part"
+            MethodSpec.table,
+            "name",
+            f"{job.method.name} found no usable position for this tool and part: {told}",
         )
     return from_core(linked)
